@@ -1,0 +1,19 @@
+# Flags for our own code only; libraries are included as SYSTEM.
+set(LUMIBOX_SANITIZE "" CACHE STRING "Sanitizers, e.g. address,undefined or thread")
+
+find_program(CCACHE ccache)
+if(CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+endif()
+
+add_library(lumibox_flags INTERFACE)
+target_compile_options(lumibox_flags INTERFACE -Wall -Wextra -Wconversion -Wshadow -Werror)
+# Floating-point contraction differs between compilers and machines; results must not.
+target_compile_options(lumibox_flags INTERFACE -ffp-contract=off -fno-math-errno)
+if(LUMIBOX_SANITIZE)
+  target_compile_options(lumibox_flags INTERFACE -fsanitize=${LUMIBOX_SANITIZE} -fno-omit-frame-pointer
+                                                 -fno-sanitize-recover=undefined)
+  # Sanitizer instrumentation confuses GCC's flow analysis of Eigen's inlined code.
+  target_compile_options(lumibox_flags INTERFACE -Wno-maybe-uninitialized -Wno-error=array-bounds)
+  target_link_options(lumibox_flags INTERFACE -fsanitize=${LUMIBOX_SANITIZE})
+endif()

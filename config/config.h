@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace lumibox::config {
+
+/// Every threshold of the box, grouped by the layer that uses it. Default, unit, range and origin
+/// of each value stand in lumibox.toml beside this file; schema.cpp holds the same as a table.
+/// Angles are degrees here and radians everywhere else.
+
+struct Loop {
+  double rate_hz = 30.0;  ///< ticks per second
+};
+
+struct Tracking {
+  int pyramid_levels = 4;                ///< levels, each half the size of the one below
+  int max_measurements = 700;            ///< map points searched for per frame
+  int max_features_per_keyframe = 1200;  ///< corners kept on all levels of a keyframe
+  int fast_threshold = 10;               ///< grey levels
+  double init_min_parallax_deg = 1.0;    ///< median parallax for a two-view map
+  int init_min_inliers = 80;             ///< points in a two-view map
+  double search_radius_px = 10.0;        ///< at level 0, on the fine pass
+  double lost_inlier_share = 0.25;  ///< share of searched points found below which quality is bad
+  int lost_after_frames = 5;        ///< bad frames in a row until the tracker is lost
+  int local_keyframes = 8;          ///< keyframes in a local bundle adjustment
+  double keyframe_parallax_deg = 3.0;  ///< median parallax to the nearest keyframe for a new one
+};
+
+struct Capture {
+  double threshold_deg = 4.0;      ///< angle at S below which a perspective is not new (thesis 2.3)
+  double threshold_step = 1.25;    ///< factor of one press of + or -
+  double threshold_min_deg = 0.5;  ///< smallest threshold the buttons reach
+  double threshold_max_deg = 30.0;    ///< largest threshold the buttons reach
+  int jpeg_quality = 92;              ///< 1..100
+  double sphere_radius_share = 0.35;  ///< radius of the first sphere as a share of its distance
+  double depth_step = 0.05;           ///< one press of +/-: relative step of inverse depth
+};
+
+struct Render {
+  int k = 40;                          ///< perspectives blended (thesis 3: 40 to 60)
+  int small_aperture_max_k = 40;       ///< cap of k in small aperture mode (thesis 3.2)
+  double exponent = 2.0;               ///< of the weights in wide aperture mode (thesis 3.2)
+  double feather_px = 48.0;            ///< width of the faded border (thesis 3)
+  double small_aperture_alpha = 0.4;   ///< alpha of the nearer half (thesis 3.2)
+  double small_aperture_stop = 0.004;  ///< transmittance at which a pixel is done
+};
+
+struct Log {
+  std::string level = "info";  ///< trace, debug, info, warn, error
+};
+
+struct Config {
+  Loop loop;
+  Tracking tracking;
+  Capture capture;
+  Render render;
+  Log log;
+};
+
+}  // namespace lumibox::config

@@ -1,0 +1,143 @@
+#include "geometry/camera.h"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+
+namespace lumibox::geometry {
+namespace {
+
+struct Distorted {
+  Eigen::Vector2d point;
+  Eigen::Matrix2d jacobian;
+};
+
+Distorted distort_normalised(const config::CameraProfile& c, const Eigen::Vector2d& n) {
+  const double x = n.x();
+  const double y = n.y();
+  const double r2 = x * x + y * y;
+  const double radial = 1.0 + r2 * (c.k1 + r2 * (c.k2 + r2 * c.k3));
+  const double slope = c.k1 + r2 * (2.0 * c.k2 + r2 * 3.0 * c.k3);  // d radial / d r2
+  Distorted d;
+  d.point.x() = x * radial + 2.0 * c.p1 * x * y + c.p2 * (r2 + 2.0 * x * x);
+  d.point.y() = y * radial + c.p1 * (r2 + 2.0 * y * y) + 2.0 * c.p2 * x * y;
+  d.jacobian(0, 0) = radial + 2.0 * x * x * slope + 2.0 * c.p1 * y + 6.0 * c.p2 * x;
+  d.jacobian(0, 1) = 2.0 * x * y * slope + 2.0 * c.p1 * x + 2.0 * c.p2 * y;
+  d.jacobian(1, 0) = d.jacobian(0, 1);
+  d.jacobian(1, 1) = radial + 2.0 * y * y * slope + 6.0 * c.p1 * y + 2.0 * c.p2 * x;
+  return d;
+}
+
+/// Smallest r2 > 0 at which d(r * radial(r))/dr = 1 + 3 k1 r2 + 5 k2 r4 + 7 k3 r6 reaches zero, by
+/// a scan and bisection over every field of view a rectilinear lens can have (r <= 10 is 168
+/// degrees).
+double find_fold(const config::CameraProfile& c) {
+  const auto derivative = [&c](double r2) {
+    return 1.0 + r2 * (3.0 * c.k1 + r2 * (5.0 * c.k2 + r2 * 7.0 * c.k3));
+  };
+  double previous = 0.0;
+  for (int i = 1; i <= 2000; ++i) {
+    const double r = 0.005 * i;
+    const double r2 = r * r;
+    if (derivative(r2) <= 0.0) {
+      double low = previous;
+      double high = r2;
+      for (int step = 0; step < 60; ++step) {
+        const double middle = 0.5 * (low + high);
+        (derivative(middle) <= 0.0 ? high : low) = middle;
+      }
+      return low;
+    }
+    previous = r2;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+Camera::Camera(const config::CameraProfile& profile)
+    : profile_(profile),
+      has_distortion_(profile.k1 != 0.0 || profile.k2 != 0.0 || profile.p1 != 0.0 ||
+                      profile.p2 != 0.0 || profile.k3 != 0.0),
+      fold_radius2_(has_distortion_ ? find_fold(profile)
+                                    : std::numeric_limits<double>::infinity()) {}
+
+std::optional<Eigen::Vector2d> Camera::project(const Eigen::Vector3d& p) const {
+  if (!(p.z() > 0.0)) return std::nullopt;
+  const Eigen::Vector2d n(p.x() / p.z(), p.y() / p.z());
+  if (!has_distortion_) {
+    return Eigen::Vector2d(profile_.fx * n.x() + profile_.cx, profile_.fy * n.y() + profile_.cy);
+  }
+  if (!(n.squaredNorm() < fold_radius2_)) return std::nullopt;
+  return distort(n);
+}
+
+std::optional<Eigen::Vector2d> Camera::project(const Eigen::Vector3d& p,
+                                               Eigen::Matrix<double, 2, 3>* jacobian) const {
+  if (!(p.z() > 0.0)) return std::nullopt;
+  const double inverse_z = 1.0 / p.z();
+  const Eigen::Vector2d n(p.x() * inverse_z, p.y() * inverse_z);
+  if (!(n.squaredNorm() < fold_radius2_)) return std::nullopt;
+  Distorted d{n, Eigen::Matrix2d::Identity()};
+  if (has_distortion_) d = distort_normalised(profile_, n);
+  Eigen::Matrix<double, 2, 3> normalised_by_point;
+  normalised_by_point << inverse_z, 0.0, -n.x() * inverse_z, 0.0, inverse_z, -n.y() * inverse_z;
+  *jacobian =
+      Eigen::Vector2d(profile_.fx, profile_.fy).asDiagonal() * d.jacobian * normalised_by_point;
+  return Eigen::Vector2d(profile_.fx * d.point.x() + profile_.cx,
+                         profile_.fy * d.point.y() + profile_.cy);
+}
+
+std::optional<Eigen::Vector2d> Camera::unproject(const Eigen::Vector2d& pixel) const {
+  const Eigen::Vector2d target((pixel.x() - profile_.cx) / profile_.fx,
+                               (pixel.y() - profile_.cy) / profile_.fy);
+  if (!has_distortion_) return target;
+  Eigen::Vector2d n = target;
+  // Start inside the fold, where Newton's method stays on the branch that a lens can see.
+  if (n.squaredNorm() >= fold_radius2_) n *= 0.9 * std::sqrt(fold_radius2_ / n.squaredNorm());
+  for (int iteration = 0; iteration < 50; ++iteration) {
+    const Distorted d = distort_normalised(profile_, n);
+    const Eigen::Vector2d error = d.point - target;
+    if (error.squaredNorm() < 1e-26) break;
+    const double determinant = d.jacobian.determinant();
+    if (!(std::abs(determinant) > 1e-12)) return std::nullopt;
+    Eigen::Vector2d step = d.jacobian.inverse() * error;
+    Eigen::Vector2d next = n - step;
+    for (int halving = 0; halving < 30 && !(next.squaredNorm() < fold_radius2_); ++halving) {
+      step *= 0.5;
+      next = n - step;
+    }
+    n = next;
+  }
+  if (!(n.squaredNorm() < fold_radius2_)) return std::nullopt;
+  if (!((distort_normalised(profile_, n).point - target).squaredNorm() < 1e-20)) {
+    return std::nullopt;
+  }
+  return n;
+}
+
+Eigen::Vector2d Camera::distort(const Eigen::Vector2d& normalised) const {
+  const Eigen::Vector2d d = distort_normalised(profile_, normalised).point;
+  return {profile_.fx * d.x() + profile_.cx, profile_.fy * d.y() + profile_.cy};
+}
+
+Camera Camera::at_level(int level) const {
+  config::CameraProfile p = profile_;
+  for (int i = 0; i < level; ++i) {
+    p.fx *= 0.5;
+    p.fy *= 0.5;
+    p.cx = 0.5 * p.cx - 0.25;
+    p.cy = 0.5 * p.cy - 0.25;
+    p.width /= 2;
+    p.height /= 2;
+  }
+  return Camera(p);
+}
+
+Camera Camera::undistorted() const {
+  config::CameraProfile p = profile_;
+  p.k1 = p.k2 = p.p1 = p.p2 = p.k3 = 0.0;
+  return Camera(p);
+}
+
+}  // namespace lumibox::geometry

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+
+#include "hal/display.h"
+#include "hal/image.h"
+
+namespace lumibox::hal {
+
+/// OpenGL ES 3 without a screen: EGL on Mesa's surfaceless platform, drawing into a framebuffer
+/// object of its own.
+class OffscreenDisplay : public Display {
+ public:
+  /// Throws config::InputError saying which EGL step failed.
+  OffscreenDisplay(int width, int height);
+  ~OffscreenDisplay() override;
+
+  int width() const override;
+  int height() const override;
+  void make_current() override;
+  unsigned framebuffer() const override;
+  void present() override;
+
+  /// What the framebuffer holds, three channels, top row first.
+  Image read_back() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lumibox::hal

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "lightfield/light_field.h"
+
+namespace lumibox::lightfield {
+
+/// Who writes.
+enum class Writing {
+  Inline,    ///< the caller, before the call returns: lockstep
+  Threaded,  ///< a thread of its own: a recorded perspective costs the loop no file access
+};
+
+/// A capture on disk, written as it is recorded. At every instant the folder holds a
+/// transforms.json that is a valid nerfstudio data set: pictures are written and synced before a
+/// transforms.json that names them; that is written aside, synced, renamed, and its folder synced.
+class Store {
+ public:
+  /// Creates `folder`, or opens it if empty. Refuses (config::InputError) a folder that already
+  /// holds something: nothing recorded is ever overwritten.
+  Store(const std::filesystem::path& folder, int jpeg_quality, Writing writing);
+  ~Store();
+  Store(const Store&) = delete;
+  Store& operator=(const Store&) = delete;
+
+  /// Each returns at once when Threaded. The pictures of wiped perspectives stay on disk, unnamed,
+  /// until close(), so that undo finds them.
+  void set_subject(const Sphere& sphere);
+  void add(const Perspective& perspective);
+  void remove(int id);
+  void restore(const Perspective& perspective);
+  void set_pose(int id, const geometry::Pose& world_from_camera);
+  void set_points(std::vector<Eigen::Vector3d> points);
+
+  /// First error of the writer (disk full, folder gone), as a sentence with the path; none if all
+  /// is well. What was complete before stays loadable.
+  std::optional<std::string> error() const;
+
+  /// Waits until everything handed over is on disk. Throws config::InputError on error().
+  void flush();
+
+  const std::filesystem::path& folder() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lumibox::lightfield

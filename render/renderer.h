@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "lightfield/perspective.h"
+#include "render/view.h"
+
+namespace lumibox::render {
+
+/// The light field renderer on OpenGL ES 3: one full-screen pass over a texture array with a
+/// homography per layer. All calls need the same current context, the destructor included.
+class Renderer {
+ public:
+  Renderer();
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// Draws the view into `framebuffer`, which has the size of view.camera. Pictures not yet on the
+  /// GPU are uploaded first and kept by perspective id; those of perspectives gone are forgotten.
+  void draw(const View& view, const std::vector<lightfield::Perspective>& perspectives,
+            const Settings& settings, unsigned framebuffer);
+
+  /// Uploads one picture ahead of its first use, so that the tick that reviews does not pay for it.
+  void upload(const lightfield::Perspective& perspective);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lumibox::render

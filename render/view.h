@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "config/config.h"
+#include "geometry/camera.h"
+#include "geometry/pose.h"
+#include "lightfield/perspective.h"
+
+namespace lumibox::render {
+
+enum class Aperture { Small, Wide };
+
+/// The requested perspective p_req of thesis 3: a pinhole camera without distortion.
+struct View {
+  geometry::Camera camera;
+  geometry::Pose world_from_camera;
+};
+
+/// How a view is reconstructed (thesis 3).
+struct Settings {
+  Aperture aperture = Aperture::Small;
+  int k = 40;                                       ///< perspectives blended
+  double exponent = 2.0;                            ///< of the weights, wide aperture only
+  Eigen::Vector3d focus = Eigen::Vector3d::Zero();  ///< S: every proxy plane passes through it
+  double feather_px = 48.0;                         ///< width of the faded border
+  double small_aperture_alpha = 0.4;                ///< thesis 3.2
+  double small_aperture_stop = 0.004;               ///< transmittance at which a pixel is done
+};
+
+/// Settings from the configuration, focus at S.
+Settings settings_from(const config::Render& options, Aperture aperture,
+                       const Eigen::Vector3d& focus);
+
+/// One of the k perspectives of a view, ready to draw.
+struct Layer {
+  std::size_t perspective = 0;  ///< index into the vector given to plan_view
+  double penalty = 0.0;         ///< angle at S, radians
+  double weight = 0.0;          ///< wide: normalised weight; small: alpha
+  Eigen::Vector3d normal;       ///< of the proxy plane through S, in world (thesis 3.1)
+  /// Undistorted normalised source coordinates of a pixel of the view, up to scale:
+  /// source ~ source_from_pixel * (u, v, 1). The third coordinate is positive exactly where the
+  /// plane point lies before the source camera and before the view.
+  Eigen::Matrix3d source_from_pixel;
+};
+
+/// Layers of a view in order of increasing penalty: selection, proxy planes and weights of
+/// thesis 3. Perspectives whose plane cannot be seen from the view are left out. Pure and
+/// deterministic.
+std::vector<Layer> plan_view(const View& view,
+                             const std::vector<lightfield::Perspective>& perspectives,
+                             const Settings& settings);
+
+}  // namespace lumibox::render

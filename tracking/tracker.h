@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "config/config.h"
+#include "geometry/camera.h"
+#include "geometry/pose.h"
+#include "hal/image.h"
+#include "tracking/tracked_frame.h"
+
+namespace lumibox::tracking {
+
+/// A point of the map as others see it.
+struct MapPoint {
+  Eigen::Vector3d position;  ///< in world
+  int observations = 0;      ///< keyframes that see it
+};
+
+struct TrackerStatistics {
+  int keyframes = 0;
+  int points = 0;
+  int relocalisations = 0;
+  int loops_closed = 0;
+};
+
+/// Who runs the mapper.
+enum class Mapping {
+  Lockstep,  ///< track() does, in turn: two runs are identical to the bit
+  Threaded,  ///< a thread of its own: mapping never delays a frame
+};
+
+/// Monocular visual odometry with a map: a grey frame in, a pose out (thesis 2.1; Klein and Murray,
+/// "Parallel Tracking and Mapping for Small AR Workspaces", ISMAR 2007). Bad frames are a state
+/// with a reason, never an exception.
+class Tracker {
+ public:
+  Tracker(const geometry::Camera& camera, const config::Tracking& options, Mapping mapping,
+          std::uint32_t seed);
+  ~Tracker();
+  Tracker(const Tracker&) = delete;
+  Tracker& operator=(const Tracker&) = delete;
+
+  /// Tracks one frame of the camera's size. Frames come in order of time.
+  TrackedFrame track(const hal::Image& gray, std::int64_t index, std::int64_t timestamp_ns);
+
+  /// Current estimate of a keyframe's pose; none if it never existed. A culled keyframe keeps
+  /// answering through the keyframe it was tied to.
+  std::optional<geometry::Pose> world_from_keyframe(KeyframeId id) const;
+
+  /// Counts map corrections: while it stays the same, no keyframe has moved.
+  std::uint64_t map_revision() const;
+
+  /// Copy of the map's reliable points.
+  std::vector<MapPoint> points() const;
+
+  /// Points that the last tracked frame measured, in world.
+  std::vector<Eigen::Vector3d> visible_points() const;
+
+  TrackerStatistics statistics() const;
+
+  /// Waits for the mapper and runs the final adjustment.
+  void finish();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lumibox::tracking
