@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 namespace lumibox::config {
 
 /// What is known of a camera before it is opened: OPENCV distortion model, pixel centres at
@@ -19,5 +22,9 @@ struct CameraProfile {
   double fps = 30.0;       ///< frames per second
   double readout_s = 0.0;  ///< time from first to last row; 0 = global shutter
 };
+
+/// What is implausible about a profile, in words that name the number and its range; none if it can
+/// be the description of a real camera.
+std::optional<std::string> fault_of(const CameraProfile& profile);
 
 }  // namespace lumibox::config

@@ -35,6 +35,9 @@ struct Capture {
   int jpeg_quality = 92;              ///< 1..100
   double sphere_radius_share = 0.35;  ///< radius of the first sphere as a share of its distance
   double depth_step = 0.05;           ///< one press of +/-: relative step of inverse depth
+  double moved_share = 0.002;  ///< correction of the map below which a recorded pose is left alone,
+                               ///< as a share of the distance to the subject
+  std::string folder = "captures";  ///< where `run` keeps its captures
 };
 
 struct Render {
@@ -46,6 +49,24 @@ struct Render {
   double small_aperture_stop = 0.004;  ///< transmittance at which a pixel is done
 };
 
+struct Aperture {
+  int frames = 12;        ///< pictures kept for the augmented aperture (thesis 2.2)
+  double gate_deg = 0.5;  ///< angle at the focus between two of them
+};
+
+struct Controls {
+  double long_press_s = 0.6;     ///< held this long, a press is a long one
+  double orbit_period_s = 12.0;  ///< one round of the automatic orbit in review
+};
+
+/// What the box is made of; app/devices.cpp knows the kinds.
+struct Devices {
+  std::string clock = "system";               ///< system, or virtual: as fast as the work allows
+  std::string camera;                         ///< sim:SCENE.toml or replay:SEQUENCE
+  std::string buttons = "none";               ///< none, or script:FILE
+  std::string display = "offscreen:640x480";  ///< offscreen:WIDTHxHEIGHT
+};
+
 struct Log {
   std::string level = "info";  ///< trace, debug, info, warn, error
 };
@@ -55,6 +76,9 @@ struct Config {
   Tracking tracking;
   Capture capture;
   Render render;
+  Aperture aperture;
+  Controls controls;
+  Devices devices;
   Log log;
 };
 

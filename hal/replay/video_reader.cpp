@@ -1,0 +1,80 @@
+#include "hal/replay/video_reader.h"
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
+#include <vector>
+
+#include "config/error.h"
+
+namespace lumibox::hal {
+namespace {
+
+namespace fs = std::filesystem;
+
+cv::VideoCapture open(const fs::path& file, const std::vector<int>& parameters) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(file, ignored)) {
+    throw config::InputError(file, "no such file; expected a video");
+  }
+  try {
+    cv::VideoCapture capture(file.string(), cv::CAP_FFMPEG, parameters);
+    if (capture.isOpened()) {
+      return capture;
+    }
+  } catch (const cv::Exception&) {
+    // Reported below, in words for a person.
+  }
+  throw config::InputError(file,
+                           "cannot be read as a video; the file is damaged or of a kind "
+                           "that this system has no decoder for");
+}
+
+}  // namespace
+
+class VideoReader::Impl {
+ public:
+  explicit Impl(const fs::path& file) : capture_(open(file, {})) {}
+
+  std::optional<Image> next() {
+    cv::Mat bgr;
+    if (!capture_.read(bgr) || bgr.type() != CV_8UC3) {
+      return std::nullopt;
+    }
+    Image image(bgr.cols, bgr.rows, 3);
+    cv::Mat rgb(bgr.rows, bgr.cols, CV_8UC3, image.data());
+    cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
+    return image;
+  }
+
+  void skip(std::int64_t frames) {
+    while (frames > 0 && capture_.grab()) {
+      --frames;
+    }
+  }
+
+ private:
+  cv::VideoCapture capture_;
+};
+
+VideoReader::VideoReader(const fs::path& file) : impl_(std::make_unique<Impl>(file)) {}
+VideoReader::~VideoReader() = default;
+std::optional<Image> VideoReader::next() {
+  return impl_->next();
+}
+void VideoReader::skip(std::int64_t frames) {
+  impl_->skip(frames);
+}
+
+VideoInfo read_video_info(const fs::path& file) {
+  // Format -1 hands out the encoded packets, so that counting them is quick.
+  cv::VideoCapture packets = open(file, {cv::CAP_PROP_FORMAT, -1});
+  VideoInfo info;
+  info.fps = packets.get(cv::CAP_PROP_FPS);
+  while (packets.grab()) {
+    ++info.frames;
+  }
+  return info;
+}
+
+}  // namespace lumibox::hal
