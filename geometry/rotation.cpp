@@ -38,6 +38,13 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return 2.0 * std::atan2((u - v).norm(), (u + v).norm());
 }
 
+Eigen::Matrix<double, 3, 2> tangent_basis(const Eigen::Vector3d& unit) {
+  Eigen::Matrix<double, 3, 2> basis;
+  basis.col(0) = unit.unitOrthogonal();
+  basis.col(1) = unit.cross(basis.col(0));
+  return basis;
+}
+
 Eigen::Quaterniond canonical(const Eigen::Quaterniond& q) {
   return q.w() < 0.0 ? Eigen::Quaterniond(-q.w(), -q.x(), -q.y(), -q.z()) : q;
 }

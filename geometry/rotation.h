@@ -19,6 +19,9 @@ Eigen::Vector3d log_so3(const Eigen::Quaterniond& q);
 /// 0 if either is zero.
 double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
+/// Two unit vectors that span the plane perpendicular to a unit vector, as columns.
+Eigen::Matrix<double, 3, 2> tangent_basis(const Eigen::Vector3d& unit);
+
 /// The same rotation with w >= 0, as written to files.
 Eigen::Quaterniond canonical(const Eigen::Quaterniond& q);
 

@@ -22,10 +22,9 @@ std::optional<Eigen::Vector3d> triangulate(const Pose& a_from_world, const Pose&
                                            const Eigen::Vector3d& bearing_a,
                                            const Eigen::Vector3d& bearing_b);
 
-/// The point seen by several cameras, bearings[i] a unit vector in the frame of camera i: linear
-/// least squares of the distances to the rays, then Gauss-Newton on the angular errors. None on the
-/// same conditions as above, where the largest angle between any two rays counts, or for fewer than
-/// two rays, or if the spans differ in length.
+/// The point seen by several cameras, bearings[i] a unit vector in the frame of camera i: the two
+/// rays that differ most give the start, Levenberg-Marquardt on the angular errors of all the rest.
+/// None on the same conditions as above, for fewer than two rays, or if the spans differ in length.
 std::optional<Eigen::Vector3d> triangulate(std::span<const Pose> cameras_from_world,
                                            std::span<const Eigen::Vector3d> bearings);
 
