@@ -1,0 +1,114 @@
+#include "render/reference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "render/blending.h"
+
+namespace lumibox::render {
+namespace {
+
+struct Ray {
+  Eigen::Vector3d origin;
+  Eigen::Vector3d direction;
+};
+
+Ray ray_of_pixel(const View& view, int u, int v) {
+  const config::CameraProfile& c = view.camera.profile();
+  const Eigen::Vector3d direction((u - c.cx) / c.fx, (v - c.cy) / c.fy, 1.0);
+  return {view.world_from_camera.translation, view.world_from_camera.rotation * direction};
+}
+
+/// Where the ray meets the plane through S, before its origin.
+std::optional<Eigen::Vector3d> intersect(const Ray& ray, const Eigen::Vector3d& normal,
+                                         const Eigen::Vector3d& focus) {
+  const double t = normal.dot(focus - ray.origin) / normal.dot(ray.direction);
+  if (!(t > 0.0) || !std::isfinite(t)) return std::nullopt;
+  return ray.origin + t * ray.direction;
+}
+
+Eigen::Vector3d texel(const hal::Image& image, int x, int y) {
+  const std::uint8_t* rgb = image.at(x, y);
+  return {static_cast<double>(rgb[0]), static_cast<double>(rgb[1]), static_cast<double>(rgb[2])};
+}
+
+/// Bilinear interpolation of the stored values; `pixel` lies within the outermost pixel centres.
+Eigen::Vector3d sample(const hal::Image& image, const Eigen::Vector2d& pixel) {
+  const int x0 = static_cast<int>(pixel.x());
+  const int y0 = static_cast<int>(pixel.y());
+  const int x1 = std::min(x0 + 1, image.width() - 1);
+  const int y1 = std::min(y0 + 1, image.height() - 1);
+  const double a = pixel.x() - x0;
+  const double b = pixel.y() - y0;
+  return (1.0 - b) * ((1.0 - a) * texel(image, x0, y0) + a * texel(image, x1, y0)) +
+         b * ((1.0 - a) * texel(image, x0, y1) + a * texel(image, x1, y1));
+}
+
+/// What one perspective shows at a pixel of the view: its colour there, and its weight (wide) or
+/// alpha (small) after feathering, 0 where it shows nothing.
+struct Contribution {
+  Eigen::Vector3d color = Eigen::Vector3d::Zero();
+  double weight = 0.0;
+};
+
+Contribution contribution(const Ray& ray, const Layer& layer,
+                          const lightfield::Perspective& perspective, const Settings& settings) {
+  const std::optional<Eigen::Vector3d> point = intersect(ray, layer.normal, settings.focus);
+  if (!point) return {};
+  const std::optional<Eigen::Vector2d> pixel =
+      perspective.camera->project(perspective.world_from_camera.inverse() * *point);
+  if (!pixel) return {};
+  const hal::Image& image = *perspective.color;
+  const double fade = feather(*pixel, image.width(), image.height(), settings.feather_px);
+  if (fade <= 0.0) return {};
+  return {sample(image, *pixel), layer.weight * fade};
+}
+
+/// Thesis 3.2, wide aperture: weighted mean.
+Eigen::Vector3d blend_wide(const std::vector<Contribution>& contributions) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double total = 0.0;
+  for (const Contribution& c : contributions) {
+    sum += c.weight * c.color;
+    total += c.weight;
+  }
+  return sum / std::max(total, least_total_weight(contributions.size()));
+}
+
+/// Thesis 3.2, small aperture: far to near, each "over" what is there.
+Eigen::Vector3d blend_small(const std::vector<Contribution>& contributions) {
+  Eigen::Vector3d color = Eigen::Vector3d::Zero();
+  for (auto c = contributions.rbegin(); c != contributions.rend(); ++c) {
+    color = c->weight * c->color + (1.0 - c->weight) * color;
+  }
+  return color;
+}
+
+}  // namespace
+
+hal::Image render_reference(const View& view,
+                            const std::vector<lightfield::Perspective>& perspectives,
+                            const Settings& settings) {
+  const std::vector<Layer> layers = plan_view(view, perspectives, settings);
+  hal::Image image(view.camera.width(), view.camera.height(), 3);
+  std::vector<Contribution> contributions(layers.size());
+  for (int v = 0; v < image.height(); ++v) {
+    for (int u = 0; u < image.width(); ++u) {
+      const Ray ray = ray_of_pixel(view, u, v);
+      for (std::size_t i = 0; i < layers.size(); ++i) {
+        contributions[i] =
+            contribution(ray, layers[i], perspectives[layers[i].perspective], settings);
+      }
+      const Eigen::Vector3d color = settings.aperture == Aperture::Wide
+                                        ? blend_wide(contributions)
+                                        : blend_small(contributions);
+      for (int channel = 0; channel < 3; ++channel) {
+        image.at(u, v)[channel] = static_cast<std::uint8_t>(std::lround(color[channel]));
+      }
+    }
+  }
+  return image;
+}
+
+}  // namespace lumibox::render

@@ -1,0 +1,193 @@
+#include "render/renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "render/blending.h"
+#include "render/gl.h"
+#include "render/picture_cache.h"
+#include "render/shader_source.h"
+
+namespace lumibox::render {
+namespace {
+
+using lightfield::Perspective;
+
+/// `Layer` of light_field.frag, std140.
+struct LayerUniforms {
+  std::array<float, 4> from_x, from_y, from_1;
+  std::array<float, 4> picture;
+  std::array<float, 4> blend;
+  std::array<float, 4> intrinsics;
+  std::array<float, 4> distortion;
+};
+static_assert(sizeof(LayerUniforms) * kMaxLayers <= 16384, "the least that ES 3 promises");
+
+std::array<float, 4> vec4(double x, double y, double z, double w) {
+  return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z),
+          static_cast<float>(w)};
+}
+
+/// Pixel of the view (first centre at 0, rows down) from gl_FragCoord (at 0.5, rows up).
+Eigen::Matrix3d pixel_from_fragment(int height) {
+  Eigen::Matrix3d m;
+  m << 1.0, 0.0, -0.5, 0.0, -1.0, height - 0.5, 0.0, 0.0, 1.0;
+  return m;
+}
+
+Eigen::Matrix3d pixel_from_ray(const config::CameraProfile& c) {
+  Eigen::Matrix3d m;
+  m << c.fx, 0.0, c.cx, 0.0, c.fy, c.cy, 0.0, 0.0, 1.0;
+  return m;
+}
+
+LayerUniforms uniforms_of(const Layer& layer, const Perspective& perspective, int view_height,
+                          bool distortion, int slot, const Settings& settings) {
+  const config::CameraProfile& c = perspective.camera->profile();
+  Eigen::Matrix<double, 4, 3> m;
+  m.topRows<3>() = layer.source_from_pixel;
+  if (!distortion) m.topRows<3>() = pixel_from_ray(c) * layer.source_from_pixel;
+  m.row(3) = layer.before_view.transpose();
+  m = m * pixel_from_fragment(view_height);
+
+  const int width = perspective.color->width();
+  const int height = perspective.color->height();
+  const double fold = std::min(perspective.camera->fold_radius2(),
+                               static_cast<double>(std::numeric_limits<float>::max()));
+  LayerUniforms u;
+  u.from_x = vec4(m(0, 0), m(1, 0), m(2, 0), m(3, 0));
+  u.from_y = vec4(m(0, 1), m(1, 1), m(2, 1), m(3, 1));
+  u.from_1 = vec4(m(0, 2), m(1, 2), m(2, 2), m(3, 2));
+  u.picture =
+      vec4(width - 1, height - 1, slot, 1.0 / feather_width(width, height, settings.feather_px));
+  u.blend = vec4(layer.weight, c.k3, fold, 0.0);
+  u.intrinsics = vec4(c.fx, c.fy, c.cx, c.cy);
+  u.distortion = vec4(c.k1, c.k2, c.p1, c.p2);
+  return u;
+}
+
+/// light_field.frag in one of its variants.
+struct Variant {
+  gl::Program program;
+  GLint layer_count = -1;
+  GLint texel_size = -1;
+  GLint least_total_weight = -1;
+  GLint stop = -1;
+
+  Variant(Aperture aperture, bool distortion) {
+    std::string prelude = "#define MAX_LAYERS " + std::to_string(kMaxLayers) + "\n";
+    if (aperture == Aperture::Small) prelude += "#define SMALL_APERTURE\n";
+    if (distortion) prelude += "#define DISTORTION\n";
+    prelude += shader_source("lens.glsl");
+    program = gl::make_program("screen.vert", "light_field.frag", prelude);
+    layer_count = gl::uniform(program, "layer_count");
+    texel_size = gl::uniform(program, "texel_size");
+    least_total_weight = gl::uniform(program, "least_total_weight");
+    stop = gl::uniform(program, "stop");
+    glUniformBlockBinding(program.name(), glGetUniformBlockIndex(program.name(), "Layers"), 0);
+    glUseProgram(program.name());
+    glUniform1i(gl::uniform(program, "pictures"), 0);
+  }
+};
+
+}  // namespace
+
+class Renderer::Impl {
+ public:
+  Impl() : vertex_array_(gl::make_vertex_array()), uniforms_(gl::make_buffer()) {
+    glBindBuffer(GL_UNIFORM_BUFFER, uniforms_.name());
+    glBufferData(GL_UNIFORM_BUFFER, sizeof(LayerUniforms) * kMaxLayers, nullptr, GL_DYNAMIC_DRAW);
+  }
+
+  void draw(const View& view, const std::vector<Perspective>& perspectives,
+            const Settings& settings, unsigned framebuffer) {
+    std::vector<Layer> layers = plan_view(view, perspectives, settings);
+    const std::size_t planned = layers.size();
+    std::erase_if(layers, [](const Layer& layer) { return layer.weight <= 0.0; });
+    const bool distortion = std::any_of(layers.begin(), layers.end(), [&](const Layer& layer) {
+      return perspectives[layer.perspective].camera->has_distortion();
+    });
+    fill_uniforms(layers, perspectives, view.camera.height(), distortion, settings);
+
+    gl::begin(framebuffer, view.camera.width(), view.camera.height(), gl::Blend::Replace);
+    const Variant& variant = variant_for(settings.aperture, distortion);
+    glUseProgram(variant.program.name());
+    glUniform1i(variant.layer_count, static_cast<GLint>(layers.size()));
+    glUniform2f(variant.texel_size, 1.0F / static_cast<float>(std::max(1, cache_.width())),
+                1.0F / static_cast<float>(std::max(1, cache_.height())));
+    glUniform1f(variant.least_total_weight, static_cast<float>(least_total_weight(planned)));
+    glUniform1f(variant.stop, static_cast<float>(settings.small_aperture_stop));
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, uniforms_.name());
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, cache_.texture());
+    glBindVertexArray(vertex_array_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+
+  void upload(const Perspective& perspective) {
+    const hal::Image& picture = *perspective.color;
+    cache_.begin_view(1, picture.width(), picture.height());
+    cache_.slot_of(perspective.color);
+  }
+
+ private:
+  void fill_uniforms(const std::vector<Layer>& layers, const std::vector<Perspective>& perspectives,
+                     int view_height, bool distortion, const Settings& settings) {
+    if (layers.empty()) return;
+    int width = 0;
+    int height = 0;
+    for (const Layer& layer : layers) {
+      width = std::max(width, perspectives[layer.perspective].color->width());
+      height = std::max(height, perspectives[layer.perspective].color->height());
+    }
+    cache_.begin_view(layers.size(), width, height);
+
+    std::vector<LayerUniforms> data;
+    for (const Layer& layer : layers) {
+      const Perspective& perspective = perspectives[layer.perspective];
+      const int slot = cache_.slot_of(perspective.color);
+      data.push_back(uniforms_of(layer, perspective, view_height, distortion, slot, settings));
+    }
+    glBindBuffer(GL_UNIFORM_BUFFER, uniforms_.name());
+    glBufferSubData(GL_UNIFORM_BUFFER, 0,
+                    static_cast<GLsizeiptr>(data.size() * sizeof(LayerUniforms)), data.data());
+  }
+
+  /// Compiled when first needed.
+  const Variant& variant_for(Aperture aperture, bool distortion) {
+    std::optional<Variant>& variant =
+        variants_[(aperture == Aperture::Small ? 2U : 0U) + (distortion ? 1U : 0U)];
+    if (!variant) variant.emplace(aperture, distortion);
+    return *variant;
+  }
+
+  gl::VertexArray vertex_array_;
+  gl::Buffer uniforms_;
+  PictureCache cache_;
+  std::array<std::optional<Variant>, 4> variants_;
+};
+
+Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
+Renderer::~Renderer() = default;
+
+void Renderer::draw(const View& view, const std::vector<Perspective>& perspectives,
+                    const Settings& settings, unsigned framebuffer) {
+  impl_->draw(view, perspectives, settings, framebuffer);
+}
+
+void Renderer::draw_augmented(const View& view, const Perspective& live,
+                              const std::vector<Perspective>& recorded, const Settings& settings,
+                              unsigned framebuffer) {
+  std::vector<Perspective> all = recorded;
+  all.push_back(live);
+  impl_->draw(view, all, settings, framebuffer);
+}
+
+void Renderer::upload(const Perspective& perspective) {
+  impl_->upload(perspective);
+}
+
+}  // namespace lumibox::render

@@ -9,7 +9,8 @@
 namespace lumibox::render {
 
 /// The light field renderer on OpenGL ES 3: one full-screen pass over a texture array with a
-/// homography per layer. All calls need the same current context, the destructor included.
+/// homography per layer. All calls need the same current context, the destructor included. A GPU
+/// that cannot hold the pictures or compile the shaders throws config::InputError.
 class Renderer {
  public:
   Renderer();
@@ -17,10 +18,18 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Draws the view into `framebuffer`, which has the size of view.camera. Pictures not yet on the
-  /// GPU are uploaded first and kept by perspective id; those of perspectives gone are forgotten.
+  /// Draws the view into `framebuffer`, which has the size of view.camera; every pixel is written.
+  /// Pictures not yet on the GPU are uploaded first.
   void draw(const View& view, const std::vector<lightfield::Perspective>& perspectives,
             const Settings& settings, unsigned framebuffer);
+
+  /// The augmented aperture of thesis 2.2: the live picture as one more perspective among the
+  /// recorded ones, all fused on the plane through settings.focus. With a view at the live camera
+  /// that plane faces it. Settings come from augmented_settings_from(); `live` needs a pose, a
+  /// camera and a picture, its id does not matter.
+  void draw_augmented(const View& view, const lightfield::Perspective& live,
+                      const std::vector<lightfield::Perspective>& recorded,
+                      const Settings& settings, unsigned framebuffer);
 
   /// Uploads one picture ahead of its first use, so that the tick that reviews does not pay for it.
   void upload(const lightfield::Perspective& perspective);

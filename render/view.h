@@ -13,16 +13,21 @@ namespace lumibox::render {
 
 enum class Aperture { Small, Wide };
 
-/// The requested perspective p_req of thesis 3: a pinhole camera without distortion.
+/// The requested perspective p_req of thesis 3: a pinhole camera. Distortion of `camera` is
+/// ignored.
 struct View {
   geometry::Camera camera;
   geometry::Pose world_from_camera;
 };
 
+/// Most perspectives that one view blends: their data fit the 16 KiB of a uniform block that every
+/// OpenGL ES 3 device has.
+inline constexpr std::size_t kMaxLayers = 128;
+
 /// How a view is reconstructed (thesis 3).
 struct Settings {
   Aperture aperture = Aperture::Small;
-  int k = 40;                                       ///< perspectives blended
+  int k = 40;                                       ///< perspectives blended, at most kMaxLayers
   double exponent = 2.0;                            ///< of the weights, wide aperture only
   Eigen::Vector3d focus = Eigen::Vector3d::Zero();  ///< S: every proxy plane passes through it
   double feather_px = 48.0;                         ///< width of the faded border
@@ -34,6 +39,9 @@ struct Settings {
 Settings settings_from(const config::Render& options, Aperture aperture,
                        const Eigen::Vector3d& focus);
 
+/// Settings of the augmented aperture (thesis 2.2): wide, all weights equal.
+Settings augmented_settings_from(const config::Render& options, const Eigen::Vector3d& focus);
+
 /// One of the k perspectives of a view, ready to draw.
 struct Layer {
   std::size_t perspective = 0;  ///< index into the vector given to plan_view
@@ -41,14 +49,18 @@ struct Layer {
   double weight = 0.0;          ///< wide: normalised weight; small: alpha
   Eigen::Vector3d normal;       ///< of the proxy plane through S, in world (thesis 3.1)
   /// Undistorted normalised source coordinates of a pixel of the view, up to scale:
-  /// source ~ source_from_pixel * (u, v, 1). The third coordinate is positive exactly where the
-  /// plane point lies before the source camera and before the view.
+  /// source ~ source_from_pixel * (u, v, 1). Where the plane point lies before the view, the third
+  /// coordinate is positive exactly where it lies before the source camera too.
   Eigen::Matrix3d source_from_pixel;
+  /// before_view . (u, v, 1) is positive exactly where the pixel's ray meets the plane before the
+  /// view and not behind it.
+  Eigen::Vector3d before_view;
 };
 
 /// Layers of a view in order of increasing penalty: selection, proxy planes and weights of
-/// thesis 3. Perspectives whose plane cannot be seen from the view are left out. Pure and
-/// deterministic.
+/// thesis 3. Perspectives without a picture and those whose plane cannot be seen from the view
+/// (edge-on, or behind view or source at every pixel) do not count as candidates. Pure and
+/// deterministic: of equal penalties the smaller id comes first.
 std::vector<Layer> plan_view(const View& view,
                              const std::vector<lightfield::Perspective>& perspectives,
                              const Settings& settings);

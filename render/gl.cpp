@@ -1,0 +1,112 @@
+#include "render/gl.h"
+
+#include "config/error.h"
+#include "render/shader_source.h"
+
+namespace lumibox::render::gl {
+namespace {
+
+constexpr std::string_view kHeader =
+    "#version 300 es\n"
+    "precision highp float;\n"
+    "precision highp int;\n"
+    "precision highp sampler2D;\n"
+    "precision highp sampler2DArray;\n";
+
+Shader compile(GLenum kind, std::string_view file, std::string_view prelude) {
+  Shader shader(glCreateShader(kind));
+  std::string text(kHeader);
+  text.append(prelude).append(shader_source(file));
+  const char* source = text.c_str();
+  glShaderSource(shader.name(), 1, &source, nullptr);
+  glCompileShader(shader.name());
+  GLint done = 0;
+  glGetShaderiv(shader.name(), GL_COMPILE_STATUS, &done);
+  if (done == 0) {
+    std::string log(4096, '\0');
+    GLsizei length = 0;
+    glGetShaderInfoLog(shader.name(), static_cast<GLsizei>(log.size()), &length, log.data());
+    log.resize(static_cast<std::size_t>(length));
+    throw config::InputError("OpenGL ES 3 cannot compile the shader " + std::string(file) + ": " +
+                             log);
+  }
+  return shader;
+}
+
+}  // namespace
+
+void delete_buffer(GLuint name) {
+  glDeleteBuffers(1, &name);
+}
+void delete_texture(GLuint name) {
+  glDeleteTextures(1, &name);
+}
+void delete_program(GLuint name) {
+  glDeleteProgram(name);
+}
+void delete_shader(GLuint name) {
+  glDeleteShader(name);
+}
+void delete_vertex_array(GLuint name) {
+  glDeleteVertexArrays(1, &name);
+}
+
+Buffer make_buffer() {
+  GLuint name = 0;
+  glGenBuffers(1, &name);
+  return Buffer(name);
+}
+
+VertexArray make_vertex_array() {
+  GLuint name = 0;
+  glGenVertexArrays(1, &name);
+  return VertexArray(name);
+}
+
+Texture make_texture(GLenum target) {
+  GLuint name = 0;
+  glGenTextures(1, &name);
+  glBindTexture(target, name);
+  glTexParameteri(target, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(target, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(target, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(target, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  return Texture(name);
+}
+
+Program make_program(std::string_view vertex_file, std::string_view fragment_file,
+                     std::string_view prelude) {
+  const Shader vertex = compile(GL_VERTEX_SHADER, vertex_file, {});
+  const Shader fragment = compile(GL_FRAGMENT_SHADER, fragment_file, prelude);
+  Program program(glCreateProgram());
+  glAttachShader(program.name(), vertex.name());
+  glAttachShader(program.name(), fragment.name());
+  glLinkProgram(program.name());
+  GLint done = 0;
+  glGetProgramiv(program.name(), GL_LINK_STATUS, &done);
+  if (done == 0) {
+    throw config::InputError("OpenGL ES 3 cannot link the shader " + std::string(fragment_file));
+  }
+  return program;
+}
+
+GLint uniform(const Program& program, const char* name) {
+  return glGetUniformLocation(program.name(), name);
+}
+
+void begin(unsigned framebuffer, int width, int height, Blend blend) {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  glViewport(0, 0, width, height);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  glDisable(GL_SCISSOR_TEST);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  if (blend == Blend::Over) {
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  } else {
+    glDisable(GL_BLEND);
+  }
+}
+
+}  // namespace lumibox::render::gl

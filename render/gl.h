@@ -1,0 +1,62 @@
+#pragma once
+
+#include <GLES3/gl3.h>
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace lumibox::render::gl {
+
+/// Owns the name of a GL object; `destroy` frees it. Needs the context current when it ends.
+template <void (*destroy)(GLuint)>
+class Object {
+ public:
+  Object() = default;
+  explicit Object(GLuint name) : name_(name) {}
+  Object(Object&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+  Object& operator=(Object&& other) noexcept {
+    std::swap(name_, other.name_);
+    return *this;
+  }
+  ~Object() {
+    if (name_ != 0) destroy(name_);
+  }
+  GLuint name() const { return name_; }
+
+ private:
+  GLuint name_ = 0;
+};
+
+void delete_buffer(GLuint name);
+void delete_texture(GLuint name);
+void delete_program(GLuint name);
+void delete_shader(GLuint name);
+void delete_vertex_array(GLuint name);
+
+using Buffer = Object<delete_buffer>;
+using Texture = Object<delete_texture>;
+using Program = Object<delete_program>;
+using Shader = Object<delete_shader>;
+using VertexArray = Object<delete_vertex_array>;
+
+Buffer make_buffer();
+VertexArray make_vertex_array();
+
+/// A texture with linear filtering, no mipmaps and clamped edges, left bound to `target`.
+Texture make_texture(GLenum target);
+
+/// Links a program of two files of render/shaders/. `prelude` stands before the fragment shader:
+/// definitions, and files that it uses. Throws config::InputError with the driver's log.
+Program make_program(std::string_view vertex_file, std::string_view fragment_file,
+                     std::string_view prelude = {});
+
+GLint uniform(const Program& program, const char* name);
+
+/// Binds a framebuffer and sets the state that everything here draws with: no depth, no culling,
+/// blending as asked ("over": source alpha).
+enum class Blend { Replace, Over };
+void begin(unsigned framebuffer, int width, int height, Blend blend);
+
+}  // namespace lumibox::render::gl

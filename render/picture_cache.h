@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "hal/image.h"
+#include "render/gl.h"
+
+namespace lumibox::render {
+
+/// Pictures on the GPU: the slots of one texture array, each with one picture in its first corner.
+/// When all slots are taken the one unused for longest is overwritten, so the memory is bounded
+/// however many perspectives are recorded. A picture is told by the object, not by an id.
+class PictureCache {
+ public:
+  /// Starts a view of at most `pictures` pictures of at most this size: what was handed out before
+  /// may be overwritten. If they do not fit, the array grows and forgets what it held. Throws
+  /// config::InputError if the GPU has no room.
+  void begin_view(std::size_t pictures, int width, int height);
+
+  /// Slot of a picture with three channels, uploaded if it is not there; valid until the next
+  /// begin_view().
+  int slot_of(const std::shared_ptr<const hal::Image>& picture);
+
+  GLuint texture() const { return texture_.name(); }
+  int width() const { return width_; }    ///< pixels of a slot
+  int height() const { return height_; }  ///< pixels of a slot
+
+ private:
+  struct Slot {
+    std::weak_ptr<const hal::Image> picture;
+    std::uint64_t last_view = 0;
+  };
+
+  void allocate(std::size_t slots, int width, int height);
+  void upload(const hal::Image& picture, std::size_t slot);
+
+  gl::Texture texture_;
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<Slot> slots_;
+  std::uint64_t view_ = 0;
+  std::vector<std::uint8_t> rgba_;  ///< of the picture being uploaded
+};
+
+}  // namespace lumibox::render

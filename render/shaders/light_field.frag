@@ -1,0 +1,74 @@
+// The light field of thesis 3 in one pass: at each pixel a loop over the layers, nearest first.
+// SMALL_APERTURE blends "over" from the front and stops where nothing behind can be seen any more;
+// otherwise the layers' weighted mean. DISTORTION where any source has a lens that distorts.
+
+struct Layer {
+  // (source.xyz, before_view) = from_x * x + from_y * y + from_1 at gl_FragCoord. The source is in
+  // pixels, or with DISTORTION in normalised coordinates.
+  vec4 from_x;
+  vec4 from_y;
+  vec4 from_1;
+  vec4 picture;     // width - 1, height - 1, slot in the texture array, 1 / feather width
+  vec4 blend;       // weight or alpha, k3, squared radius of the fold, unused
+  vec4 intrinsics;  // fx fy cx cy
+  vec4 distortion;  // k1 k2 p1 p2
+};
+
+layout(std140) uniform Layers {
+  Layer layers[MAX_LAYERS];
+};
+uniform int layer_count;
+uniform vec2 texel_size;           // 1 / size of the texture array
+uniform float least_total_weight;  // wide aperture: smallest divisor
+uniform float stop;                // small aperture: transmittance at which a pixel is done
+uniform sampler2DArray pictures;
+
+out vec4 color;
+
+// Weight of layer i at this pixel after feathering; 0 where it shows nothing.
+float seen(int i, out vec2 pixel) {
+  vec4 source = layers[i].from_x * gl_FragCoord.x + layers[i].from_y * gl_FragCoord.y +
+                layers[i].from_1;
+  bool visible = source.z > 0.0 && source.w > 0.0;
+  pixel = source.xy / source.z;
+#ifdef DISTORTION
+  visible = visible && dot(pixel, pixel) < layers[i].blend.z;
+  pixel = pixel_of(pixel, layers[i].intrinsics, layers[i].distortion, layers[i].blend.y);
+#endif
+  vec2 inside = min(pixel, layers[i].picture.xy - pixel) * layers[i].picture.w;
+  vec2 fade = clamp(inside, 0.0, 1.0);
+  fade = fade * fade * (3.0 - 2.0 * fade);
+  return visible ? layers[i].blend.x * fade.x * fade.y : 0.0;
+}
+
+vec3 picture_at(int i, vec2 pixel) {
+  vec2 at = (pixel + 0.5) * texel_size;
+  return textureLod(pictures, vec3(at, layers[i].picture.z), 0.0).rgb;
+}
+
+void main() {
+  vec3 sum = vec3(0.0);
+#ifdef SMALL_APERTURE
+  float transmittance = 1.0;
+  for (int i = 0; i < layer_count && transmittance > stop; ++i) {
+    vec2 pixel;
+    float alpha = seen(i, pixel);
+    if (alpha > 0.0) {
+      sum += transmittance * alpha * picture_at(i, pixel);
+      transmittance *= 1.0 - alpha;
+    }
+  }
+  color = vec4(sum, 1.0);
+#else
+  float total = 0.0;
+  for (int i = 0; i < layer_count; ++i) {
+    vec2 pixel;
+    float weight = seen(i, pixel);
+    if (weight > 0.0) {
+      sum += weight * picture_at(i, pixel);
+      total += weight;
+    }
+  }
+  color = vec4(sum / max(total, least_total_weight), 1.0);
+#endif
+}
