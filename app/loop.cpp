@@ -1,0 +1,102 @@
+#include "app/loop.h"
+
+#include <numbers>
+#include <utility>
+
+namespace lumibox::app {
+
+Loop::Loop(Devices& devices, const config::Config& config, std::filesystem::path captures,
+           Threading threading)
+    : devices_(devices),
+      config_(config),
+      camera_(devices.camera->profile()),
+      tracker_(camera_, config.tracking, threading.mapping, /*seed=*/0),
+      recorder_(camera_, config.capture, threading.writing),
+      session_{config_, std::move(captures), recorder_,
+               config.capture.threshold_deg * std::numbers::pi / 180.0},
+      modes_(session_, camera_),
+      gestures_(config.controls.long_press_s),
+      metronome_(*devices.clock, config.loop.rate_hz),
+      screen_(*devices.display, camera_) {
+  moment_.map.world_from_keyframe = [this](tracking::KeyframeId id) {
+    return tracker_.world_from_keyframe(id);
+  };
+}
+
+void Loop::run(const std::function<bool()>& go_on) {
+  do {
+    tick();
+    metronome_.wait();
+  } while (go_on());
+}
+
+void Loop::tick() {
+  const Moment& moment = look();
+  const auto gestures = gestures_.update(devices_.buttons->poll(), moment.now_ns);
+  const Decision decision = modes_.decide(gestures, moment);
+  hold_exposure(decision.hold_exposure);
+  if (decision.record) {
+    record(moment);
+  }
+  show(modes_.draw(moment));
+  ++statistics_.ticks;
+}
+
+/// Takes the newest frame and tracks it. Without a new one the moment before stays, but for the
+/// time.
+const Moment& Loop::look() {
+  moment_.now_ns = devices_.clock->now_ns();
+  std::optional<hal::Frame> frame = devices_.camera->take_newest();
+  moment_.fresh = frame.has_value();
+  if (frame) {
+    moment_.frame = std::move(*frame);
+    moment_.tracked =
+        tracker_.track(*moment_.frame.gray, moment_.frame.index, moment_.frame.timestamp_ns);
+    moment_.map_points = tracker_.visible_points();
+    ++statistics_.frames;
+    statistics_.tracked += moment_.tracked.world_from_camera ? 1 : 0;
+  }
+  moment_.map.revision = tracker_.map_revision();
+  recorder_.follow_map(moment_.map, config_.capture.moved_share);
+  return moment_;
+}
+
+void Loop::hold_exposure(bool hold) {
+  if (hold != exposure_held_) {
+    devices_.camera->lock_exposure(hold);
+    exposure_held_ = hold;
+  }
+}
+
+void Loop::record(const Moment& moment) {
+  recorder_.record(moment);
+  screen_.upload(recorder_.light_field().perspectives().back());
+}
+
+void Loop::show(Picture picture) {
+  picture_ = std::move(picture);
+  if (devices_.camera->state() == hal::CameraState::Lost) {
+    picture_.alerts.emplace_back("the camera is gone; waiting for it");
+  }
+  if (const auto error = recorder_.error()) {
+    picture_.alerts.push_back("not stored: " + *error);
+  }
+  screen_.draw(picture_, moment_.frame);
+  devices_.display->present();
+}
+
+void Loop::finish() {
+  tracker_.finish();
+  moment_.map.revision = tracker_.map_revision();
+  recorder_.follow_map(moment_.map, 0.0);
+  recorder_.set_points(tracker_.points());
+  recorder_.flush();
+}
+
+LoopStatistics Loop::statistics() const {
+  LoopStatistics statistics = statistics_;
+  statistics.late_ticks = metronome_.late_ticks();
+  return statistics;
+}
+
+}  // namespace lumibox::app

@@ -1,0 +1,100 @@
+#include "app/button_script.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "config/error.h"
+
+namespace lumibox::app {
+namespace {
+
+constexpr std::array<std::pair<const char*, hal::Button>, 5> kButtons = {{
+    {"main", hal::Button::Main},
+    {"review", hal::Button::Review},
+    {"plus", hal::Button::Plus},
+    {"minus", hal::Button::Minus},
+    {"wipe", hal::Button::Wipe},
+}};
+
+std::optional<hal::Button> button_named(const std::string& name) {
+  for (const auto& [known, button] : kButtons) {
+    if (name == known) {
+      return button;
+    }
+  }
+  return std::nullopt;
+}
+
+struct ScriptLine {
+  double time_s = 0.0;
+  Gesture gesture;
+};
+
+/// None for a line that is not `seconds button [long]`.
+std::optional<ScriptLine> parse_line(const std::string& text) {
+  std::istringstream words(text);
+  ScriptLine line;
+  std::string button_name;
+  if (!(words >> line.time_s >> button_name) || !(line.time_s >= 0.0) || line.time_s > 1e6) {
+    return std::nullopt;
+  }
+  const auto button = button_named(button_name);
+  std::string press;
+  words >> press;
+  std::string rest;
+  if (!button || (!press.empty() && press != "long") || words >> rest) {
+    return std::nullopt;
+  }
+  line.gesture = {*button, press.empty() ? Press::Short : Press::Long};
+  return line;
+}
+
+}  // namespace
+
+std::vector<hal::ButtonEvent> press_at(double time_s, const Gesture& gesture) {
+  constexpr double kShort_s = 0.1;
+  constexpr double kLong_s = 1.5;  // longer than any sensible controls.long_press_s
+  const double held_s = gesture.press == Press::Long ? kLong_s : kShort_s;
+  const auto ns = [](double s) { return static_cast<std::int64_t>(std::llround(s * 1e9)); };
+  return {{gesture.button, hal::ButtonAction::Pressed, ns(time_s)},
+          {gesture.button, hal::ButtonAction::Released, ns(time_s + held_s)}};
+}
+
+std::vector<hal::ButtonEvent> read_button_script(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream) {
+    throw config::InputError(file, "cannot be opened; expected a script of button presses");
+  }
+  std::vector<hal::ButtonEvent> events;
+  double last_s = 0.0;
+  std::string text;
+  for (int number = 1; std::getline(stream, text); ++number) {
+    text = text.substr(0, text.find('#'));
+    if (text.find_first_not_of(" \t\r") == std::string::npos) {
+      continue;
+    }
+    const auto line = parse_line(text);
+    if (!line) {
+      throw config::InputError(file, number,
+                               "found \"" + text +
+                                   "\"; expected `seconds button [long]` with button main, "
+                                   "review, plus, minus or wipe");
+    }
+    if (line->time_s < last_s) {
+      throw config::InputError(file, number, "the time goes back");
+    }
+    last_s = line->time_s;
+    for (const hal::ButtonEvent& event : press_at(line->time_s, line->gesture)) {
+      events.push_back(event);
+    }
+  }
+  return events;
+}
+
+}  // namespace lumibox::app

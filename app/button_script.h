@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "app/gestures.h"
+#include "hal/buttons.h"
+
+namespace lumibox::app {
+
+/// Edges of one press that begins at `time_s`.
+std::vector<hal::ButtonEvent> press_at(double time_s, const Gesture& gesture);
+
+/// Reads a script of button presses, one per line: `seconds button [long]`, the button one of main,
+/// review, plus, minus, wipe; `#` begins a comment. Times must not go back. Throws
+/// config::InputError with file and line.
+std::vector<hal::ButtonEvent> read_button_script(const std::filesystem::path& file);
+
+}  // namespace lumibox::app

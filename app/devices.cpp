@@ -1,0 +1,120 @@
+#include "app/devices.h"
+
+#include <charconv>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "app/button_script.h"
+#include "config/error.h"
+#include "hal/offscreen/offscreen_display.h"
+#include "hal/replay/replay_camera.h"
+#include "hal/scripted/scripted_buttons.h"
+#include "hal/sim/scene.h"
+#include "hal/sim/sim_camera.h"
+#include "hal/sim/virtual_clock.h"
+#include "hal/system_clock.h"
+
+namespace lumibox::app {
+namespace {
+
+/// A device as the configuration names it: "kind" or "kind:what".
+struct Name {
+  std::string kind;
+  std::string what;
+};
+
+Name split(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) {
+    return {text, {}};
+  }
+  return {text.substr(0, colon), text.substr(colon + 1)};
+}
+
+[[noreturn]] void refuse(const char* option, const std::string& found, const char* kinds) {
+  throw config::InputError(std::string("devices.") + option + ": \"" + found +
+                           "\" is not in this build; it has " + kinds);
+}
+
+std::unique_ptr<hal::Clock> open_clock(const std::string& text) {
+  if (text == "system") {
+    return std::make_unique<hal::SystemClock>();
+  }
+  if (text == "virtual") {
+    return std::make_unique<hal::VirtualClock>();
+  }
+  refuse("clock", text, "system and virtual");
+}
+
+std::unique_ptr<hal::Camera> open_camera(const std::string& text, const hal::Clock& clock) {
+  const Name name = split(text);
+  if (name.kind == "sim") {
+    return std::make_unique<hal::SimCamera>(hal::load_scene(name.what), clock);
+  }
+  if (name.kind == "replay") {
+    return std::make_unique<hal::ReplayCamera>(hal::open_sequence(name.what), clock,
+                                               hal::Pacing::Recorded);
+  }
+  refuse("camera", text, "sim:SCENE.toml and replay:SEQUENCE");
+}
+
+std::unique_ptr<hal::Buttons> open_buttons(const std::string& text, const hal::Clock& clock) {
+  const Name name = split(text);
+  if (name.kind == "script") {
+    return std::make_unique<hal::ScriptedButtons>(read_button_script(name.what), clock);
+  }
+  if (text == "none") {
+    return std::make_unique<hal::ScriptedButtons>(std::vector<hal::ButtonEvent>{}, clock);
+  }
+  refuse("buttons", text, "none and script:FILE");
+}
+
+/// "640x480"
+std::optional<std::pair<int, int>> parse_size(std::string_view text) {
+  constexpr int kLargest = 8192;
+  std::pair<int, int> size;
+  const char* const end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, size.first);
+  if (width.ec != std::errc() || width.ptr == end || *width.ptr != 'x') {
+    return std::nullopt;
+  }
+  const auto height = std::from_chars(width.ptr + 1, end, size.second);
+  const bool fits = size.first >= 1 && size.first <= kLargest &&  //
+                    size.second >= 1 && size.second <= kLargest;
+  if (height.ec != std::errc() || height.ptr != end || !fits) {
+    return std::nullopt;
+  }
+  return size;
+}
+
+std::unique_ptr<hal::Display> open_display(const std::string& text) {
+  const Name name = split(text);
+  if (name.kind != "offscreen") {
+    refuse("display", text, "offscreen:WIDTHxHEIGHT");
+  }
+  const auto size = parse_size(name.what);
+  if (!size) {
+    throw config::InputError("devices.display: \"" + text +
+                             "\" has no size; expected e.g. offscreen:640x480");
+  }
+  return std::make_unique<hal::OffscreenDisplay>(size->first, size->second);
+}
+
+}  // namespace
+
+Devices open_devices(const config::Devices& options) {
+  Devices devices;
+  devices.clock = open_clock(options.clock);
+  devices.lockstep = options.clock == "virtual";
+  devices.camera = open_camera(options.camera, *devices.clock);
+  devices.buttons = open_buttons(options.buttons, *devices.clock);
+  devices.display = open_display(options.display);
+  devices.display->make_current();
+  devices.camera->start();
+  return devices;
+}
+
+}  // namespace lumibox::app

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "app/devices.h"
+#include "app/gestures.h"
+#include "app/metronome.h"
+#include "app/modes/modes.h"
+#include "app/recorder.h"
+#include "app/screen.h"
+#include "config/config.h"
+#include "tracking/tracker.h"
+
+namespace lumibox::app {
+
+/// How the work beside the loop is done.
+struct Threading {
+  tracking::Mapping mapping = tracking::Mapping::Threaded;
+  lightfield::Writing writing = lightfield::Writing::Threaded;
+};
+inline constexpr Threading kThreaded{tracking::Mapping::Threaded, lightfield::Writing::Threaded};
+inline constexpr Threading kLockstep{tracking::Mapping::Lockstep, lightfield::Writing::Inline};
+
+/// What a run came to.
+struct LoopStatistics {
+  std::int64_t ticks = 0;
+  std::int64_t late_ticks = 0;
+  std::int64_t frames = 0;
+  std::int64_t tracked = 0;  ///< frames with a pose
+};
+
+/// The appliance: everything that happens, happens in tick().
+class Loop {
+ public:
+  /// `devices` must outlive the loop; captures become folders of their own in `captures`.
+  Loop(Devices& devices, const config::Config& config, std::filesystem::path captures,
+       Threading threading);
+
+  /// Ticks at the configured rate as long as `go_on` says so after each.
+  void run(const std::function<bool()>& go_on);
+
+  void tick();
+
+  /// Brings the capture under way to disk: final corrections, points, pictures. Throws
+  /// config::InputError if something could not be written.
+  void finish();
+
+  ModeId mode() const { return modes_.current(); }
+  const Moment& moment() const { return moment_; }
+  const Picture& picture() const { return picture_; }
+  const Recorder& recorder() const { return recorder_; }
+  LoopStatistics statistics() const;
+
+ private:
+  const Moment& look();
+  void hold_exposure(bool hold);
+  void record(const Moment& moment);
+  void show(Picture picture);
+
+  Devices& devices_;
+  config::Config config_;
+  geometry::Camera camera_;
+  tracking::Tracker tracker_;
+  Recorder recorder_;
+  Session session_;
+  Modes modes_;
+  Gestures gestures_;
+  Metronome metronome_;
+  Screen screen_;
+  Moment moment_;
+  Picture picture_;
+  bool exposure_held_ = false;
+  LoopStatistics statistics_;
+};
+
+}  // namespace lumibox::app

@@ -1,0 +1,30 @@
+#include "app/modes/modes.h"
+
+#include "app/modes/acquire.h"
+#include "app/modes/capture.h"
+#include "app/modes/review.h"
+#include "app/modes/subject.h"
+
+namespace lumibox::app {
+
+Modes::Modes(Session& session, const geometry::Camera& camera)
+    : modes_{std::make_unique<AcquireMode>(), std::make_unique<SubjectMode>(session, camera),
+             std::make_unique<CaptureMode>(session), std::make_unique<ReviewMode>(session)} {}
+
+Decision Modes::decide(const std::vector<Gesture>& gestures, const Moment& moment) {
+  for (const Gesture& gesture : gestures) {
+    go_to(mode(current_).press(gesture, moment), moment);
+  }
+  go_to(mode(current_).update(moment), moment);
+  const bool capturing = current_ == ModeId::Capture || current_ == ModeId::Review;
+  return {mode(current_).wants_to_record(moment), capturing};
+}
+
+void Modes::go_to(ModeId next, const Moment& moment) {
+  if (next != current_) {
+    current_ = next;
+    mode(current_).enter(moment);
+  }
+}
+
+}  // namespace lumibox::app

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "app/modes/mode.h"
+
+namespace lumibox::app {
+
+/// What the modes make of a moment.
+struct Decision {
+  bool record = false;         ///< the moment's picture belongs into the light field
+  bool hold_exposure = false;  ///< a subject is being captured: its pictures should match
+};
+
+/// Acquire → Subject → Capture ⇄ Review: the mode the box is in, and the way from one to the next.
+class Modes {
+ public:
+  /// `session` must outlive the object.
+  Modes(Session& session, const geometry::Camera& camera);
+
+  Decision decide(const std::vector<Gesture>& gestures, const Moment& moment);
+
+  Picture draw(const Moment& moment) const { return mode(current_).draw(moment); }
+
+  ModeId current() const { return current_; }
+
+ private:
+  Mode& mode(ModeId id) const { return *modes_.at(static_cast<std::size_t>(id)); }
+  void go_to(ModeId next, const Moment& moment);
+
+  std::array<std::unique_ptr<Mode>, 4> modes_;  ///< by ModeId
+  ModeId current_ = ModeId::Acquire;
+};
+
+}  // namespace lumibox::app

@@ -1,0 +1,101 @@
+#include "app/modes/review.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <numbers>
+
+#include "app/orbit.h"
+#include "app/placement.h"
+
+namespace lumibox::app {
+
+void ReviewMode::enter(const Moment& moment) {
+  focus_steps_ = 0;
+  steering_ = moment.tracked.world_from_camera ? Steering::Box : Steering::Orbit;
+  orbit_began_ns_ = moment.now_ns;
+}
+
+ModeId ReviewMode::press(const Gesture& gesture, const Moment& moment) {
+  switch (gesture.button) {
+    case hal::Button::Main:
+      if (gesture.press == Press::Long) {
+        steering_ = steering_ == Steering::Box ? Steering::Orbit : Steering::Box;
+        orbit_began_ns_ = moment.now_ns;
+      } else {
+        aperture_ =
+            aperture_ == render::Aperture::Small ? render::Aperture::Wide : render::Aperture::Small;
+      }
+      break;
+    case hal::Button::Review:
+      return ModeId::Capture;
+    case hal::Button::Plus:
+    case hal::Button::Minus:
+      focus_steps_ += steps_of(gesture);
+      break;
+    case hal::Button::Wipe:
+      wipe(gesture.press);
+      break;
+  }
+  return ModeId::Review;
+}
+
+ModeId ReviewMode::update(const Moment& moment) {
+  if (steering_ == Steering::Box) {
+    // Without a pose the view stays where it was.
+    world_from_view_ =
+        moment.tracked.world_from_camera ? moment.tracked.world_from_camera : world_from_view_;
+  } else {
+    const double period_s = session_.config.controls.orbit_period_s;
+    const double time_s = 1e-9 * static_cast<double>(moment.now_ns - orbit_began_ns_);
+    world_from_view_ =
+        orbit_pose(session_.recorder.light_field(), 2.0 * std::numbers::pi * time_s / period_s);
+  }
+  return ModeId::Review;
+}
+
+Picture ReviewMode::draw(const Moment& moment) const {
+  const auto& light_field = session_.recorder.light_field();
+  const bool wide = aperture_ == render::Aperture::Wide;
+  Picture picture;
+  picture.title = fmt::format("review  {} views  {} aperture", light_field.perspectives().size(),
+                              wide ? "wide" : "small");
+  if (focus_steps_ != 0) {
+    picture.title += fmt::format("  focus {:+}", focus_steps_);
+  }
+  if (steering_ == Steering::Box) {
+    picture.advice = tracking_advice(moment.tracked);
+  }
+  if (light_field.perspectives().empty()) {
+    picture.advice = "nothing recorded yet";
+  }
+  if (!world_from_view_) {
+    return picture;
+  }
+  picture.world_from_view = world_from_view_;
+  picture.light_field =
+      LightFieldPicture{light_field.perspectives(),
+                        render::settings_from(session_.config.render, aperture_, focus())};
+  return picture;
+}
+
+void ReviewMode::wipe(Press press) {
+  if (press == Press::Long) {
+    session_.recorder.undo_wipe();
+  } else if (world_from_view_) {
+    session_.recorder.wipe_nearest(world_from_view_->translation);
+  }
+}
+
+Eigen::Vector3d ReviewMode::focus() const {
+  // S, slid along the view's axis: the planes of thesis 3.1 come nearer or go farther with it.
+  const Eigen::Vector3d subject = session_.recorder.light_field().subject()->center;
+  const Eigen::Vector3d forward = world_from_view_->rotation * Eigen::Vector3d::UnitZ();
+  const double depth = forward.dot(subject - world_from_view_->translation);
+  if (depth <= 0.0) {
+    return subject;  // behind the view
+  }
+  const double slid = slide_depth(depth, focus_steps_, session_.config.capture.depth_step);
+  return subject + (slid - depth) * forward;
+}
+
+}  // namespace lumibox::app

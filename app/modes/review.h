@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "app/modes/mode.h"
+#include "render/view.h"
+
+namespace lumibox::app {
+
+/// Thesis 2.4: the light field as it stands, seen through a virtual camera, at once.
+class ReviewMode : public Mode {
+ public:
+  explicit ReviewMode(Session& session) : session_(session) {}
+
+  void enter(const Moment& moment) override;
+  ModeId press(const Gesture& gesture, const Moment& moment) override;
+  ModeId update(const Moment& moment) override;
+  Picture draw(const Moment& moment) const override;
+
+ private:
+  /// What moves the virtual camera.
+  enum class Steering {
+    Box,    ///< the pose of the box itself
+    Orbit,  ///< nobody: it goes slowly around the subject
+  };
+
+  void wipe(Press press);
+  Eigen::Vector3d focus() const;
+
+  Session& session_;
+  Steering steering_ = Steering::Box;
+  render::Aperture aperture_ = render::Aperture::Small;
+  int focus_steps_ = 0;                            ///< away from S, in steps of inverse depth
+  std::int64_t orbit_began_ns_ = 0;                ///< Clock time
+  std::optional<geometry::Pose> world_from_view_;  ///< the virtual camera
+};
+
+}  // namespace lumibox::app

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "geometry/pose.h"
+#include "hal/camera.h"
+#include "hal/frame.h"
+#include "tracking/tracked_frame.h"
+
+namespace lumibox::app {
+
+/// Where the map's keyframes are now. While `revision` stays the same, none has moved.
+struct MapPoses {
+  std::uint64_t revision = 0;
+  std::function<std::optional<geometry::Pose>(tracking::KeyframeId)> world_from_keyframe;
+};
+
+/// All that the modes see of the world in one tick.
+struct Moment {
+  std::int64_t now_ns = 0;                  ///< Clock time of the tick
+  hal::Frame frame;                         ///< newest picture; color is null before the first one
+  bool fresh = false;                       ///< the picture came in this tick
+  tracking::TrackedFrame tracked;           ///< of `frame`
+  std::vector<Eigen::Vector3d> map_points;  ///< in world, those seen in `frame`
+  MapPoses map;
+
+  bool tracking_is_good() const {
+    return fresh && tracked.state == tracking::TrackingState::Good && tracked.world_from_camera;
+  }
+};
+
+}  // namespace lumibox::app

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/pose.h"
+#include "lightfield/perspective.h"
+#include "render/view.h"
+
+namespace lumibox::app {
+
+/// A light field as it should appear.
+struct LightFieldPicture {
+  std::vector<lightfield::Perspective> perspectives;
+  render::Settings settings;
+};
+
+/// The coverage map of thesis 2.3.
+struct CoveragePicture {
+  lightfield::Sphere sphere;
+  std::vector<Eigen::Vector3d> recorded;   ///< centres in world
+  std::optional<Eigen::Vector3d> current;  ///< the camera's centre in world
+};
+
+/// What a mode wants on the screen, as plain data: modes know nothing of GL, and what they show can
+/// be tested without it.
+struct Picture {
+  /// From where the light field and the coverage map are seen; without it neither is drawn.
+  std::optional<geometry::Pose> world_from_view;
+  std::optional<LightFieldPicture> light_field;  ///< in place of the camera's own picture
+  std::optional<CoveragePicture> coverage;
+  bool reticle = false;
+  std::string title;                ///< where one is: mode and numbers
+  std::string advice;               ///< what the person should do now
+  std::vector<std::string> alerts;  ///< what is wrong
+};
+
+}  // namespace lumibox::app

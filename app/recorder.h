@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/moment.h"
+#include "config/config.h"
+#include "geometry/camera.h"
+#include "lightfield/light_field.h"
+#include "lightfield/store.h"
+#include "tracking/tracker.h"
+
+namespace lumibox::app {
+
+/// The light field in memory and its folder on disk, kept the same; and both kept where the map is
+/// when the map is corrected. A store that fails stops storing, never recording: the error is there
+/// to be shown.
+class Recorder {
+ public:
+  /// `camera` is the one whose pictures are recorded.
+  Recorder(const geometry::Camera& camera, const config::Capture& options,
+           lightfield::Writing writing);
+  ~Recorder();
+
+  /// Begins a capture of the subject in `sphere`, kept in `folder`, which is made when the first
+  /// perspective is recorded. The capture before, if any, is complete on disk and left alone. The
+  /// sphere hangs on the keyframe of `moment`.
+  void begin(const lightfield::Sphere& sphere, const Moment& moment, std::filesystem::path folder);
+
+  /// Thesis 2.3, with `threshold` in radians: true if the moment's picture should be recorded.
+  bool accepts(const Moment& moment, double threshold) const;
+
+  void record(const Moment& moment);
+
+  /// Removes the perspective nearest to `center` by penalty; false if there is none.
+  bool wipe_nearest(const Eigen::Vector3d& center);
+  bool undo_wipe();
+
+  /// Moves what the map has moved by more than `tolerance`, a share of the distance to the subject.
+  void follow_map(const MapPoses& map, double tolerance);
+
+  /// Hands the map's points to the store.
+  void set_points(const std::vector<tracking::MapPoint>& points);
+
+  /// Waits for the disk; throws config::InputError if something could not be written.
+  void flush();
+
+  const lightfield::LightField& light_field() const { return light_field_; }
+
+  /// First thing that went wrong with storing, for the screen.
+  std::optional<std::string> error() const;
+
+ private:
+  void open_store();
+  void follow_subject(const MapPoses& map, double tolerance);
+
+  std::shared_ptr<const geometry::Camera> camera_;
+  config::Capture options_;
+  lightfield::Writing writing_;
+  std::filesystem::path folder_;
+  lightfield::LightField light_field_;
+  std::unique_ptr<lightfield::Store> store_;
+  std::optional<std::string> open_error_;
+  std::optional<std::uint64_t> map_revision_;  ///< that all poses agree with; none: to be checked
+  tracking::KeyframeId subject_keyframe_ = -1;
+  Eigen::Vector3d subject_in_keyframe_ = Eigen::Vector3d::Zero();
+};
+
+/// Folder of a new capture in `captures`: capture-0001, capture-0002, …, the first that is not
+/// there.
+std::filesystem::path next_capture_folder(const std::filesystem::path& captures);
+
+}  // namespace lumibox::app

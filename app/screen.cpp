@@ -1,0 +1,78 @@
+#include "app/screen.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace lumibox::app {
+namespace {
+
+constexpr render::Color kWhite{1.0F, 1.0F, 1.0F, 1.0F};
+constexpr render::Color kYellow{1.0F, 0.85F, 0.2F, 1.0F};
+constexpr render::Color kRed{1.0F, 0.35F, 0.3F, 1.0F};
+
+}  // namespace
+
+Screen::Screen(hal::Display& display, const geometry::Camera& live)
+    : display_(display),
+      live_(live),
+      view_camera_(fitted_camera(live, display.width(), display.height())) {}
+
+void Screen::draw(const Picture& picture, const hal::Frame& frame) {
+  const render::View view{view_camera_, picture.world_from_view.value_or(geometry::Pose{})};
+  draw_backdrop(picture, frame, view);
+  const unsigned framebuffer = display_.framebuffer();
+  if (picture.coverage) {
+    const CoveragePicture& coverage = *picture.coverage;
+    overlay_.draw_coverage(coverage.sphere, coverage.recorded, coverage.current, view, framebuffer);
+  }
+  if (picture.reticle) {
+    overlay_.draw_reticle(display_.width(), display_.height(), framebuffer);
+  }
+  draw_text(picture);
+}
+
+void Screen::draw_backdrop(const Picture& picture, const hal::Frame& frame,
+                           const render::View& view) {
+  const unsigned framebuffer = display_.framebuffer();
+  if (picture.light_field) {
+    renderer_.draw(view, picture.light_field->perspectives, picture.light_field->settings,
+                   framebuffer);
+  } else if (frame.color) {
+    overlay_.draw_image(*frame.color, live_, view, 1.0F, framebuffer);
+  } else {
+    renderer_.draw(view, {}, render::Settings{}, framebuffer);  // black
+  }
+}
+
+void Screen::draw_text(const Picture& picture) {
+  const auto height = static_cast<float>(display_.height());
+  const float size = std::max(12.0F, height / 26.0F);
+  const float margin = 0.6F * size;
+  std::vector<render::Text> lines;
+  float baseline = margin + size;
+  lines.push_back({picture.title, margin, baseline, size, kWhite});
+  for (const std::string& alert : picture.alerts) {
+    baseline += 1.4F * size;
+    lines.push_back({alert, margin, baseline, 0.8F * size, kRed});
+  }
+  if (!picture.advice.empty()) {
+    lines.push_back({picture.advice, margin, height - margin, size, kYellow});
+  }
+  overlay_.draw_text(lines, display_.width(), display_.height(), display_.framebuffer());
+}
+
+geometry::Camera fitted_camera(const geometry::Camera& camera, int width, int height) {
+  config::CameraProfile profile = camera.undistorted().profile();
+  const double scale = std::min(static_cast<double>(width) / profile.width,
+                                static_cast<double>(height) / profile.height);
+  // Pixel centres are at integers: the picture's middle is at (width - 1) / 2.
+  profile.cx = scale * (profile.cx - 0.5 * (profile.width - 1)) + 0.5 * (width - 1);
+  profile.cy = scale * (profile.cy - 0.5 * (profile.height - 1)) + 0.5 * (height - 1);
+  profile.fx *= scale;
+  profile.fy *= scale;
+  profile.width = width;
+  profile.height = height;
+  return geometry::Camera(profile);
+}
+
+}  // namespace lumibox::app

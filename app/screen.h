@@ -1,0 +1,41 @@
+#pragma once
+
+#include "app/picture.h"
+#include "geometry/camera.h"
+#include "hal/display.h"
+#include "hal/frame.h"
+#include "render/overlay.h"
+#include "render/renderer.h"
+
+namespace lumibox::app {
+
+/// Puts what the modes want to show on the display. The display's context must be current in every
+/// call, the destructor included.
+class Screen {
+ public:
+  /// `live` is the camera whose pictures are shown; they fill the display as far as their shape
+  /// allows.
+  Screen(hal::Display& display, const geometry::Camera& live);
+
+  /// Draws without presenting. `frame` is the newest one; its picture may be null.
+  void draw(const Picture& picture, const hal::Frame& frame);
+
+  /// Hands a recorded picture to the GPU now, so that the tick that reviews does not pay for it.
+  void upload(const lightfield::Perspective& perspective) { renderer_.upload(perspective); }
+
+ private:
+  void draw_backdrop(const Picture& picture, const hal::Frame& frame, const render::View& view);
+  void draw_text(const Picture& picture);
+
+  hal::Display& display_;
+  geometry::Camera live_;
+  geometry::Camera view_camera_;  ///< without distortion, of the display's size
+  render::Renderer renderer_;
+  render::Overlay overlay_;
+};
+
+/// The pinhole camera that shows the whole picture of `camera`, undistorted and as large as
+/// possible, in the middle of a picture of the given size.
+geometry::Camera fitted_camera(const geometry::Camera& camera, int width, int height);
+
+}  // namespace lumibox::app
