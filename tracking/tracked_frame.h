@@ -44,7 +44,6 @@ struct TrackedFrame {
   KeyframeId keyframe = -1;
   geometry::Pose keyframe_from_camera;
   int measurements = 0;  ///< map points found
-  double ms = 0.0;  ///< time spent in Tracker::track; 0 in lockstep, where time is not measured
 };
 
 }  // namespace lumibox::tracking

@@ -1,0 +1,318 @@
+#include "tracking/tracker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tracking/initialiser.h"
+#include "tracking/map_tracking.h"
+#include "tracking/mapper.h"
+#include "tracking/relocaliser.h"
+#include "tracking/rotation_prior.h"
+
+namespace lumibox::tracking {
+namespace {
+
+constexpr int kMinInliers = 20;                // fewer do not hold six degrees of freedom
+constexpr int kMinGoodInliers = 40;            // fewer are not good enough to record with
+constexpr double kVerifiedShare = 0.35;        // of points found again after relocalisation
+constexpr double kMinContrast = 6.0;           // grey levels; a dark or covered lens shows less
+constexpr int kMinKeyframeGap = 4;             // frames
+constexpr double kRefreshShare = 0.6;          // of the nearest keyframe's points still measured
+constexpr double kMinRefreshBaseline = 0.012;  // of the depth: without a baseline, no new points
+constexpr double kPriorAgreement = 1.5 * std::numbers::pi / 180.0;
+
+}  // namespace
+
+const char* advice(TrackingReason reason) {
+  switch (reason) {
+    case TrackingReason::None:
+      return "";
+    case TrackingReason::TooLittleTexture:
+      return "too little texture: show more of the surroundings";
+    case TrackingReason::MoveSideways:
+      return "move sideways";
+    case TrackingReason::TurningOnly:
+      return "turning only: move sideways";
+    case TrackingReason::PlaneAmbiguous:
+      return "flat scene: keep moving";
+    case TrackingReason::TooDarkOrBlurred:
+      return "too dark or blurred";
+    case TrackingReason::TooFewPointsFound:
+      return "point back at the subject";
+    case TrackingReason::Relocalising:
+      return "lost: return to a place seen before";
+  }
+  return "";
+}
+
+class Tracker::Impl {
+ public:
+  Impl(const geometry::Camera& camera, const config::Tracking& options, Mapping mapping,
+       std::uint32_t seed)
+      : camera_(camera),
+        options_(options),
+        initialiser_(camera, options, seed),
+        mapper_(camera, options, mapping),
+        relocaliser_(camera, options, seed) {}
+
+  TrackedFrame track(const hal::Image& gray, std::int64_t index, std::int64_t timestamp_ns) {
+    TrackedFrame result;
+    result.index = index;
+    result.timestamp_ns = timestamp_ns;
+    const auto frame = std::make_shared<const Pyramid>(gray, options_.pyramid_levels);
+    SmallImage small(*frame);
+    visible_.clear();
+    if (!map_) {
+      initialise(frame, result);
+    } else {
+      adopt_newest_map();
+      const auto found = lost_ ? relocalise(*frame, small) : localise_from_motion(*frame, small);
+      judge(found, small, result);
+      if (result.state == TrackingState::Good) request_keyframe_if_new(frame, *found);
+    }
+    last_small_ = std::move(small);
+    return result;
+  }
+
+  std::optional<geometry::Pose> world_from_keyframe(KeyframeId id) const {
+    const auto map = mapper_.view();
+    if (!map || id < 0 || static_cast<std::size_t>(id) >= map->keyframes.size())
+      return std::nullopt;
+    return map->keyframes[static_cast<std::size_t>(id)].world_from_camera;
+  }
+
+  std::uint64_t map_revision() const {
+    const auto map = mapper_.view();
+    return map ? map->revision : 0;
+  }
+
+  std::vector<MapPoint> points() const {
+    std::vector<MapPoint> points;
+    if (const auto map = mapper_.view()) {
+      for (const MapView::Point& p : map->points) {
+        if (p.sightings >= 3) points.push_back({p.position, static_cast<int>(p.sightings)});
+      }
+    }
+    return points;
+  }
+
+  const std::vector<Eigen::Vector3d>& visible_points() const { return visible_; }
+
+  TrackerStatistics statistics() const {
+    TrackerStatistics s;
+    if (const auto map = mapper_.view()) {
+      s.keyframes = static_cast<int>(map->keyframes.size());
+      s.points = static_cast<int>(map->points.size());
+    }
+    s.relocalisations = relocalisations_;
+    return s;
+  }
+
+  void finish() {
+    mapper_.finish();
+    if (map_) adopt_newest_map();
+  }
+
+ private:
+  const MapView::Keyframe& keyframe(KeyframeId id) const {
+    return map_->keyframes[static_cast<std::size_t>(id)];
+  }
+
+  void initialise(const std::shared_ptr<const Pyramid>& frame, TrackedFrame& result) {
+    const Initialiser::Progress progress = initialiser_.add(frame);
+    result.state = TrackingState::Initialising;
+    result.reason = progress.reason;
+    if (!progress.map) return;
+    mapper_.start(*progress.map);
+    map_ = mapper_.view();
+    anchor_ = 1;
+    anchor_from_camera_ = geometry::Pose();
+    camera_from_world_ = keyframe(1).camera_from_world;
+    for (const MapView::Point& p : map_->points) visible_.push_back(p.position);
+    report_pose(TrackingState::Good, static_cast<int>(map_->points.size()), result);
+  }
+
+  /// Moves the last pose along with the keyframe that it hangs on.
+  void adopt_newest_map() {
+    auto newest = mapper_.view();
+    if (newest->revision == map_->revision) return;
+    map_ = std::move(newest);
+    camera_from_world_ = (keyframe(anchor_).world_from_camera * anchor_from_camera_).inverse();
+  }
+
+  /// Motion model: constant velocity, unless the picture says that the camera turned otherwise;
+  /// then the turn that the picture shows, without translation.
+  geometry::Pose predict(const SmallImage& small) const {
+    const RotationPrior prior = estimate_rotation(camera_, last_small_, small);
+    const double disagreement =
+        geometry::log_so3(prior.current_from_last * current_from_last_.rotation.conjugate()).norm();
+    if (prior.residual < 1e8 && disagreement > kPriorAgreement) {
+      return geometry::Pose(prior.current_from_last, Eigen::Vector3d::Zero()) * camera_from_world_;
+    }
+    return current_from_last_ * camera_from_world_;
+  }
+
+  std::optional<Localisation> localise_from_motion(const Pyramid& frame, const SmallImage& small) {
+    const geometry::Pose predicted = predict(small);
+    return localise(camera_, options_, *map_, frame, predicted);
+  }
+
+  std::optional<Localisation> relocalise(const Pyramid& frame, const SmallImage& small) {
+    const auto pose = relocaliser_.find(*map_, frame, small);
+    if (!pose) return std::nullopt;
+    auto found = localise(camera_, options_, *map_, frame, *pose);
+    if (!found || found->inliers < kMinGoodInliers || found->found_share() < kVerifiedShare) {
+      return std::nullopt;
+    }
+    lost_ = false;
+    bad_frames_ = 0;
+    ++relocalisations_;
+    current_from_last_ = geometry::Pose();
+    camera_from_world_ = found->camera_from_world;
+    return found;
+  }
+
+  /// Decides from what was found how far the pose can be trusted, and remembers it.
+  void judge(const std::optional<Localisation>& found, const SmallImage& small,
+             TrackedFrame& result) {
+    result.reason = small.contrast() < kMinContrast ? TrackingReason::TooDarkOrBlurred
+                    : lost_                         ? TrackingReason::Relocalising
+                                                    : TrackingReason::TooFewPointsFound;
+    const bool usable = found && found->inliers >= kMinInliers;
+    const bool good = usable && found->inliers >= kMinGoodInliers &&
+                      found->found_share() >= options_.lost_inlier_share;
+    bad_frames_ = good ? 0 : bad_frames_ + 1;
+    if (bad_frames_ >= options_.lost_after_frames) lost_ = true;
+    if (lost_ || !usable) {
+      result.state = lost_ ? TrackingState::Lost : TrackingState::Poor;
+      current_from_last_ = geometry::Pose();
+      return;
+    }
+    current_from_last_ = found->camera_from_world * camera_from_world_.inverse();
+    camera_from_world_ = found->camera_from_world;
+    choose_anchor();
+    gather_evidence(*found);
+    if (good) result.reason = TrackingReason::None;
+    report_pose(good ? TrackingState::Good : TrackingState::Poor, found->inliers, result);
+  }
+
+  void report_pose(TrackingState state, int measurements, TrackedFrame& result) const {
+    result.state = state;
+    result.world_from_camera = camera_from_world_.inverse();
+    result.keyframe = anchor_;
+    result.keyframe_from_camera = anchor_from_camera_;
+    result.measurements = measurements;
+    if (state == TrackingState::Good) result.reason = TrackingReason::None;
+  }
+
+  /// The keyframe nearest in place, among those that look the same way.
+  void choose_anchor() {
+    const geometry::Pose world_from_camera = camera_from_world_.inverse();
+    const Eigen::Vector3d forward = world_from_camera.rotation * Eigen::Vector3d::UnitZ();
+    double best = std::numeric_limits<double>::infinity();
+    for (KeyframeId id = 0; id < static_cast<KeyframeId>(map_->keyframes.size()); ++id) {
+      const geometry::Pose& pose = keyframe(id).world_from_camera;
+      const double facing = forward.dot(pose.rotation * Eigen::Vector3d::UnitZ());
+      const double distance = (pose.translation - world_from_camera.translation).norm();
+      if (facing > 0.5 && distance < best) {
+        best = distance;
+        anchor_ = id;
+      }
+    }
+    anchor_from_camera_ = keyframe(anchor_).camera_from_world * world_from_camera;
+  }
+
+  void gather_evidence(const Localisation& found) {
+    std::vector<std::uint32_t> inliers;
+    for (const Measurement& m : found.measurements) {
+      if (!m.inlier) continue;
+      inliers.push_back(m.point);
+      visible_.push_back(m.position);
+    }
+    std::sort(inliers.begin(), inliers.end());
+    for (const std::uint32_t point : found.attempted) {
+      evidence_.push_back(
+          {map_->points[point].id, std::binary_search(inliers.begin(), inliers.end(), point)});
+    }
+  }
+
+  double median_depth(const Localisation& found) const {
+    std::vector<double> depths;
+    for (const Measurement& m : found.measurements) {
+      if (m.inlier) depths.push_back((camera_from_world_ * m.position).z());
+    }
+    const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+    std::nth_element(depths.begin(), middle, depths.end());
+    return *middle;
+  }
+
+  void request_keyframe_if_new(const std::shared_ptr<const Pyramid>& frame,
+                               const Localisation& found) {
+    ++frames_since_keyframe_;
+    if (frames_since_keyframe_ < kMinKeyframeGap || mapper_.busy()) return;
+    const double baseline = anchor_from_camera_.translation.norm() / median_depth(found);
+    const bool parallax =
+        baseline > std::tan(options_.keyframe_parallax_deg * std::numbers::pi / 180.0);
+    const bool refresh = found.inliers < kRefreshShare * std::min(keyframe(anchor_).points,
+                                                                  options_.max_measurements) &&
+                         baseline > kMinRefreshBaseline;
+    if (!parallax && !refresh) return;
+    KeyframeRequest request{anchor_, anchor_from_camera_, frame, {}, std::move(evidence_)};
+    evidence_.clear();
+    for (const Measurement& m : found.measurements) {
+      if (m.inlier)
+        request.sightings.emplace_back(map_->points[m.point].id, Sighting{-1, m.pixel, m.level});
+    }
+    frames_since_keyframe_ = 0;
+    mapper_.request(std::move(request));
+  }
+
+  const geometry::Camera camera_;
+  const config::Tracking options_;
+  Initialiser initialiser_;
+  Mapper mapper_;
+  Relocaliser relocaliser_;
+
+  std::shared_ptr<const MapView> map_;  // the copy in use; null before initialisation
+  geometry::Pose camera_from_world_;    // of the last frame with a pose
+  geometry::Pose current_from_last_;    // its motion since the one before
+  SmallImage last_small_;
+  KeyframeId anchor_ = -1;
+  geometry::Pose anchor_from_camera_;
+  bool lost_ = false;
+  int bad_frames_ = 0;
+  int frames_since_keyframe_ = 0;
+  int relocalisations_ = 0;
+  std::vector<PointEvidence> evidence_;
+  std::vector<Eigen::Vector3d> visible_;
+};
+
+Tracker::Tracker(const geometry::Camera& camera, const config::Tracking& options, Mapping mapping,
+                 std::uint32_t seed)
+    : impl_(std::make_unique<Impl>(camera, options, mapping, seed)) {}
+Tracker::~Tracker() = default;
+
+TrackedFrame Tracker::track(const hal::Image& gray, std::int64_t index, std::int64_t timestamp_ns) {
+  return impl_->track(gray, index, timestamp_ns);
+}
+std::optional<geometry::Pose> Tracker::world_from_keyframe(KeyframeId id) const {
+  return impl_->world_from_keyframe(id);
+}
+std::uint64_t Tracker::map_revision() const {
+  return impl_->map_revision();
+}
+std::vector<MapPoint> Tracker::points() const {
+  return impl_->points();
+}
+std::vector<Eigen::Vector3d> Tracker::visible_points() const {
+  return impl_->visible_points();
+}
+TrackerStatistics Tracker::statistics() const {
+  return impl_->statistics();
+}
+void Tracker::finish() {
+  impl_->finish();
+}
+
+}  // namespace lumibox::tracking

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "geometry/camera.h"
+#include "geometry/pose.h"
+
+namespace lumibox::tracking {
+
+/// Cameras, points and sightings to be adjusted together; sightings refer to both by index.
+struct BundleProblem {
+  struct View {
+    geometry::Pose camera_from_world;
+    bool fixed = false;
+  };
+  struct Observation {
+    int view = 0;
+    int point = 0;
+    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< on level 0
+    double sigma_px = 1.0;                            ///< expected error
+    double error_in_sigma = 0.0;                      ///< set by adjust: length of the residual
+  };
+  std::vector<View> views;
+  std::vector<Eigen::Vector3d> points;  ///< in world
+  std::vector<Observation> observations;
+};
+
+/// Minimises the Huber cost of all reprojection errors over the views not fixed and all points
+/// (Triggs et al., "Bundle adjustment - a modern synthesis", 2000), single threaded and
+/// deterministic. Views should be fixed so that the gauge is. A point that ends up behind a view
+/// that sees it gets an infinite error there. Returns false, with nothing changed, if the solver
+/// failed.
+bool adjust(const geometry::Camera& camera, BundleProblem& problem, int max_iterations);
+
+}  // namespace lumibox::tracking

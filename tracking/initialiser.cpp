@@ -1,0 +1,154 @@
+#include "tracking/initialiser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <opencv2/video/tracking.hpp>
+
+#include "geometry/two_view.h"
+#include "tracking/corners.h"
+#include "tracking/patch.h"
+
+namespace lumibox::tracking {
+namespace {
+
+constexpr std::size_t kMinCorners = 100;  // fewer do not cover a picture
+constexpr double kMinTrackShare = 0.4;    // of the first frame's corners; below, start again
+constexpr double kMinFlowShare = 0.008;   // of the picture's width: less is a still camera
+constexpr double kNoisePx = 0.7;          // of a followed corner, standard deviation
+
+cv::Mat as_mat(const hal::Image& image) {
+  return {image.height(), image.width(), CV_8UC1, const_cast<std::uint8_t*>(image.data())};
+}
+
+}  // namespace
+
+struct Initialiser::Track {
+  Eigen::Vector2d first;    // level 0
+  Eigen::Vector2d current;  // level 0
+  int level = 0;
+};
+
+Initialiser::Initialiser(const geometry::Camera& camera, const config::Tracking& options,
+                         std::uint32_t seed)
+    : camera_(camera), options_(options), seed_(seed) {}
+Initialiser::~Initialiser() = default;
+
+void Initialiser::restart(const std::shared_ptr<const Pyramid>& frame) {
+  first_ = frame;
+  last_ = frame;
+  tracks_.clear();
+  for (const Corner& corner :
+       detect_corners(*frame, options_.fast_threshold, options_.max_features_per_keyframe)) {
+    const Eigen::Vector2d pixel = from_level(corner.pixel, corner.level);
+    tracks_.push_back({pixel, pixel, corner.level});
+  }
+  tracks_at_start_ = tracks_.size();
+}
+
+void Initialiser::follow(const std::shared_ptr<const Pyramid>& frame) {
+  std::vector<cv::Point2f> before;
+  for (const Track& t : tracks_) {
+    before.emplace_back(static_cast<float>(t.current.x()), static_cast<float>(t.current.y()));
+  }
+  std::vector<cv::Point2f> after;
+  std::vector<cv::Point2f> back;
+  std::vector<std::uint8_t> found;
+  std::vector<std::uint8_t> found_back;
+  std::vector<float> error;
+  const cv::Mat last = as_mat(last_->level(0));
+  const cv::Mat current = as_mat(frame->level(0));
+  const cv::Size window(15, 15);
+  cv::calcOpticalFlowPyrLK(last, current, before, after, found, error, window, 4);
+  cv::calcOpticalFlowPyrLK(current, last, after, back, found_back, error, window, 4);
+
+  std::vector<Track> kept;
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const cv::Point2f round_trip = back[i] - before[i];
+    if (found[i] == 0 || found_back[i] == 0 || round_trip.dot(round_trip) > 1.0F) continue;
+    Track t = tracks_[i];
+    t.current = Eigen::Vector2d(static_cast<double>(after[i].x), static_cast<double>(after[i].y));
+    if (camera_.contains(t.current, 4.0)) kept.push_back(t);
+  }
+  tracks_ = std::move(kept);
+  last_ = frame;
+}
+
+double Initialiser::median_flow_px() const {
+  std::vector<double> flow;
+  for (const Track& t : tracks_) flow.push_back((t.current - t.first).norm());
+  const auto middle = flow.begin() + static_cast<std::ptrdiff_t>(flow.size() / 2);
+  std::nth_element(flow.begin(), middle, flow.end());
+  return *middle;
+}
+
+Initialiser::Progress Initialiser::add(const std::shared_ptr<const Pyramid>& frame) {
+  if (!first_) {
+    restart(frame);
+    return {std::nullopt, tracks_.size() < kMinCorners ? TrackingReason::TooLittleTexture
+                                                       : TrackingReason::MoveSideways};
+  }
+  if (!tracks_.empty()) follow(frame);
+  const double share = static_cast<double>(tracks_.size()) /
+                       static_cast<double>(std::max<std::size_t>(tracks_at_start_, 1));
+  if (tracks_.size() < kMinCorners || share < kMinTrackShare) {
+    restart(frame);
+    return {std::nullopt, tracks_.size() < kMinCorners ? TrackingReason::TooLittleTexture
+                                                       : TrackingReason::MoveSideways};
+  }
+  if (median_flow_px() < kMinFlowShare * camera_.width()) {
+    return {std::nullopt, TrackingReason::MoveSideways};
+  }
+  return solve(frame);
+}
+
+Initialiser::Progress Initialiser::solve(const std::shared_ptr<const Pyramid>& frame) {
+  std::vector<geometry::BearingPair> pairs;
+  std::vector<Track> used;
+  for (const Track& t : tracks_) {
+    const auto first = camera_.unproject(t.first);
+    const auto second = camera_.unproject(t.current);
+    if (!first || !second) continue;
+    pairs.push_back({first->homogeneous().normalized(), second->homogeneous().normalized()});
+    used.push_back(t);
+  }
+  geometry::TwoViewOptions options;
+  options.sigma_rad = kNoisePx / camera_.profile().fx;
+  options.min_inliers = options_.init_min_inliers;
+  options.min_parallax_rad = options_.init_min_parallax_deg * std::numbers::pi / 180.0;
+  options.seed = seed_;
+  const geometry::TwoViewResult motion = geometry::solve_two_view(pairs, options);
+  switch (motion.outcome) {
+    case geometry::TwoViewOutcome::Ok:
+      break;
+    case geometry::TwoViewOutcome::TooFewPoints:
+      return {std::nullopt, TrackingReason::TooLittleTexture};
+    case geometry::TwoViewOutcome::RotationOnly:
+      return {std::nullopt, TrackingReason::TurningOnly};
+    case geometry::TwoViewOutcome::PlaneAmbiguous:
+      return {std::nullopt, TrackingReason::PlaneAmbiguous};
+    case geometry::TwoViewOutcome::NotEnoughInliers:
+    case geometry::TwoViewOutcome::NoMotion:
+    case geometry::TwoViewOutcome::LowParallax:
+      return {std::nullopt, TrackingReason::MoveSideways};
+  }
+
+  InitialMap map{first_, frame, motion.second_from_first, {}};
+  std::vector<double> depths;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!motion.inliers[i] || !motion.points[i]) continue;
+    map.points.push_back({*motion.points[i], used[i].first, used[i].current, used[i].level});
+    depths.push_back(motion.points[i]->z());
+  }
+  if (map.points.size() < static_cast<std::size_t>(options_.init_min_inliers)) {
+    return {std::nullopt, TrackingReason::MoveSideways};
+  }
+  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
+  const double scale = 1.0 / *middle;
+  map.second_from_first.translation *= scale;
+  for (InitialMap::Point& p : map.points) p.position *= scale;
+  return {std::move(map), TrackingReason::None};
+}
+
+}  // namespace lumibox::tracking

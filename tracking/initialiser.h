@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "config/config.h"
+#include "geometry/camera.h"
+#include "geometry/pose.h"
+#include "tracking/pyramid.h"
+#include "tracking/tracked_frame.h"
+
+namespace lumibox::tracking {
+
+/// Two views and the points that both see; the first camera is the world, median depth is 1.
+struct InitialMap {
+  struct Point {
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    Eigen::Vector2d first_pixel = Eigen::Vector2d::Zero();   ///< level 0
+    Eigen::Vector2d second_pixel = Eigen::Vector2d::Zero();  ///< level 0
+    int level = 0;                                           ///< measured on
+  };
+  std::shared_ptr<const Pyramid> first;
+  std::shared_ptr<const Pyramid> second;
+  geometry::Pose second_from_first;
+  std::vector<Point> points;
+};
+
+/// Waits for two views from which the scene's shape is certain: corners of a first frame are
+/// followed until a motion with enough parallax explains them (thesis 2.1 did this by hand).
+class Initialiser {
+ public:
+  Initialiser(const geometry::Camera& camera, const config::Tracking& options, std::uint32_t seed);
+  ~Initialiser();
+
+  struct Progress {
+    std::optional<InitialMap> map;
+    TrackingReason reason = TrackingReason::MoveSideways;  ///< why there is no map yet
+  };
+  Progress add(const std::shared_ptr<const Pyramid>& frame);
+
+ private:
+  void restart(const std::shared_ptr<const Pyramid>& frame);
+  void follow(const std::shared_ptr<const Pyramid>& frame);
+  double median_flow_px() const;
+  Progress solve(const std::shared_ptr<const Pyramid>& frame);
+
+  struct Track;
+  geometry::Camera camera_;
+  config::Tracking options_;
+  std::uint32_t seed_;
+  std::shared_ptr<const Pyramid> first_;
+  std::shared_ptr<const Pyramid> last_;
+  std::vector<Track> tracks_;
+  std::size_t tracks_at_start_ = 0;
+};
+
+}  // namespace lumibox::tracking

@@ -1,0 +1,97 @@
+#include "tracking/map_adjustment.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "tracking/bundle_adjustment.h"
+
+namespace lumibox::tracking {
+namespace {
+
+constexpr int kLocalIterations = 8;
+constexpr int kGlobalIterations = 20;
+constexpr double kOutlier = 3.5;  // sigmas; 0.2 % of Gaussian errors in 2D are larger
+
+struct MapProblem {
+  BundleProblem bundle;
+  std::vector<KeyframeId> keyframes;  // of bundle.views
+  std::vector<PointId> points;        // of bundle.points
+};
+
+/// All points seen by `free`, all their sightings, and whatever keyframes those need.
+MapProblem make_problem(const Map& map, const std::set<KeyframeId>& free) {
+  MapProblem problem;
+  std::map<KeyframeId, int> view_of;
+  const auto add_view = [&](KeyframeId id) {
+    const auto [entry, is_new] = view_of.emplace(id, static_cast<int>(problem.keyframes.size()));
+    if (is_new) {
+      problem.keyframes.push_back(id);
+      problem.bundle.views.push_back(
+          {map.keyframe(id).world_from_camera.inverse(), !free.contains(id)});
+    }
+    return entry->second;
+  };
+  std::set<PointId> points;
+  for (const KeyframeId id : free) {
+    points.insert(map.keyframe(id).points.begin(), map.keyframe(id).points.end());
+  }
+  for (const PointId id : points) {
+    const int index = static_cast<int>(problem.points.size());
+    problem.points.push_back(id);
+    problem.bundle.points.push_back(map.point(id).position);
+    for (const Sighting& s : map.point(id).sightings) {
+      problem.bundle.observations.push_back(
+          {add_view(s.keyframe), index, s.pixel, static_cast<double>(1 << s.level), 0.0});
+    }
+  }
+  return problem;
+}
+
+void apply(Map& map, const MapProblem& problem) {
+  const BundleProblem& bundle = problem.bundle;
+  for (std::size_t i = 0; i < problem.keyframes.size(); ++i) {
+    if (bundle.views[i].fixed) continue;
+    map.keyframe(problem.keyframes[i]).world_from_camera =
+        bundle.views[i].camera_from_world.inverse();
+  }
+  for (std::size_t i = 0; i < problem.points.size(); ++i) {
+    map.point(problem.points[i]).position = bundle.points[i];
+  }
+  for (const auto& o : bundle.observations) {
+    if (o.error_in_sigma < kOutlier) continue;
+    map.remove_sighting(problem.points[static_cast<std::size_t>(o.point)],
+                        problem.keyframes[static_cast<std::size_t>(o.view)]);
+  }
+  for (const PointId id : problem.points) {
+    if (map.point(id).sightings.size() < 2) map.remove_point(id);
+  }
+}
+
+void adjust_keyframes(const geometry::Camera& camera, Map& map, std::set<KeyframeId> free,
+                      int iterations) {
+  free.erase(0);  // the world's origin does not move
+  if (free.empty()) return;
+  MapProblem problem = make_problem(map, free);
+  if (adjust(camera, problem.bundle, iterations)) apply(map, problem);
+  map.update_depths();
+}
+
+}  // namespace
+
+void adjust_locally(const geometry::Camera& camera, Map& map, KeyframeId id, int window) {
+  const std::vector<KeyframeId> neighbours = covisible_keyframes(map, id, window - 1);
+  std::set<KeyframeId> free(neighbours.begin(), neighbours.end());
+  free.insert(id);
+  adjust_keyframes(camera, map, free, kLocalIterations);
+}
+
+void adjust_globally(const geometry::Camera& camera, Map& map) {
+  std::set<KeyframeId> free;
+  for (KeyframeId id = 0; id < static_cast<KeyframeId>(map.keyframes().size()); ++id) {
+    free.insert(id);
+  }
+  adjust_keyframes(camera, map, free, kGlobalIterations);
+}
+
+}  // namespace lumibox::tracking

@@ -1,0 +1,43 @@
+#include "tracking/map_tracking.h"
+
+#include <algorithm>
+
+namespace lumibox::tracking {
+namespace {
+
+constexpr int kCoarsePoints = 80;
+constexpr int kMinCoarse = 12;         // inliers a coarse pose must have
+constexpr double kCoarseRadius = 5.0;  // pixels of the coarse level; 20 to 40 pixels of the picture
+constexpr double kWideRadius = 11.0;   // second try
+constexpr int kIterations = 10;
+
+/// Pose from a coarse pass; none if it found too few points that agree.
+std::optional<geometry::Pose> coarse_pose(const geometry::Camera& camera, const MapView& map,
+                                          const Pyramid& frame, const geometry::Pose& predicted,
+                                          double radius) {
+  const int coarse_level = std::min(2, frame.levels() - 1);
+  SearchResult found =
+      search_map(camera, map, frame, predicted, {coarse_level, radius, kCoarsePoints, true});
+  const PoseEstimate estimate = estimate_pose(camera, found.measurements, predicted, kIterations);
+  if (estimate.inliers < kMinCoarse) return std::nullopt;
+  return estimate.camera_from_world;
+}
+
+}  // namespace
+
+std::optional<Localisation> localise(const geometry::Camera& camera,
+                                     const config::Tracking& options, const MapView& map,
+                                     const Pyramid& frame, const geometry::Pose& predicted) {
+  auto coarse = coarse_pose(camera, map, frame, predicted, kCoarseRadius);
+  if (!coarse) coarse = coarse_pose(camera, map, frame, predicted, kWideRadius);
+  if (!coarse) return std::nullopt;
+
+  const double radius = std::max(2.0, 0.4 * options.search_radius_px);
+  SearchResult found =
+      search_map(camera, map, frame, *coarse, {0, radius, options.max_measurements, true});
+  const PoseEstimate estimate = estimate_pose(camera, found.measurements, *coarse, kIterations);
+  return Localisation{estimate.camera_from_world, std::move(found.attempted),
+                      std::move(found.measurements), estimate.inliers};
+}
+
+}  // namespace lumibox::tracking

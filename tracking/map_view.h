@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "geometry/pose.h"
+#include "tracking/pyramid.h"
+#include "tracking/tracked_frame.h"
+
+namespace lumibox::tracking {
+
+using PointId = std::int32_t;  ///< never reused; -1 is none
+
+/// Where a picture shows a map point.
+struct Sighting {
+  KeyframeId keyframe = -1;
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< on level 0
+  int level = 0;  ///< pyramid level it was measured on; its error is about half a pixel of that
+};
+
+/// An immutable copy of the map, as the mapper last published it. The tracker works on one such
+/// copy at a time, so that neither ever waits for the other.
+struct MapView {
+  struct Keyframe {
+    geometry::Pose world_from_camera;
+    geometry::Pose camera_from_world;
+    std::shared_ptr<const Pyramid> pyramid;
+    double median_depth = 1.0;
+    int points = 0;  ///< map points it sees
+  };
+  struct Point {
+    PointId id = -1;
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< in world
+    std::uint32_t first_sighting = 0;                    ///< index into sightings
+    std::uint32_t sightings = 0;
+  };
+
+  std::uint64_t revision = 0;       ///< differs between any two published copies
+  std::vector<Keyframe> keyframes;  ///< by KeyframeId
+  std::vector<Point> points;        ///< by ascending id
+  std::vector<Sighting> sightings;  ///< of all points, one after the other
+};
+
+}  // namespace lumibox::tracking

@@ -1,0 +1,130 @@
+#include "tracking/mapper.h"
+
+#include <utility>
+
+#include "tracking/map_adjustment.h"
+#include "tracking/point_creation.h"
+
+namespace lumibox::tracking {
+namespace {
+
+constexpr int kTrialFrames = 20;  // searches before a point's record counts
+constexpr double kMinFoundShare = 0.25;
+
+}  // namespace
+
+Mapper::Mapper(const geometry::Camera& camera, const config::Tracking& options, Mapping mapping)
+    : camera_(camera), options_(options), mapping_(mapping) {
+  if (mapping_ == Mapping::Threaded) thread_ = std::thread([this] { run(); });
+}
+
+Mapper::~Mapper() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void Mapper::start(const InitialMap& initial) {
+  const KeyframeId first = map_.add_keyframe(geometry::Pose(), initial.first);
+  const KeyframeId second = map_.add_keyframe(initial.second_from_first.inverse(), initial.second);
+  for (const InitialMap::Point& p : initial.points) {
+    const PointId id = map_.add_point(p.position);
+    map_.add_sighting(id, {first, p.first_pixel, p.level});
+    map_.add_sighting(id, {second, p.second_pixel, p.level});
+  }
+  map_.update_depths();
+  adjust_globally(camera_, map_);
+  create_points(camera_, options_, map_, second);
+  adjust_globally(camera_, map_);
+  if (map_.keyframe(first).median_depth > 0.0) map_.scale(1.0 / map_.keyframe(first).median_depth);
+  publish();
+}
+
+void Mapper::request(KeyframeRequest request) {
+  if (mapping_ == Mapping::Lockstep) {
+    integrate(request);
+    return;
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    requests_.push_back(std::move(request));
+  }
+  changed_.notify_all();
+}
+
+bool Mapper::busy() const {
+  const std::lock_guard lock(mutex_);
+  return working_ || !requests_.empty();
+}
+
+std::shared_ptr<const MapView> Mapper::view() const {
+  const std::lock_guard lock(mutex_);
+  return view_;
+}
+
+void Mapper::finish() {
+  if (mapping_ == Mapping::Threaded) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return requests_.empty() && !working_; });
+  }
+  if (map_.keyframes().empty()) return;
+  // Twice: the second pass no longer has the outliers that the first removed.
+  adjust_globally(camera_, map_);
+  adjust_globally(camera_, map_);
+  publish();
+}
+
+void Mapper::run() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [this] { return stopping_ || !requests_.empty(); });
+    if (stopping_) return;
+    const KeyframeRequest request = std::move(requests_.front());
+    requests_.pop_front();
+    working_ = true;
+    lock.unlock();
+    integrate(request);
+    lock.lock();
+    working_ = false;
+    changed_.notify_all();
+  }
+}
+
+void Mapper::integrate(const KeyframeRequest& request) {
+  weigh(request.evidence);
+  const KeyframeId id = map_.add_keyframe(
+      map_.keyframe(request.reference).world_from_camera * request.reference_from_camera,
+      request.pyramid);
+  for (auto [point, sighting] : request.sightings) {
+    if (!map_.has_point(point)) continue;
+    sighting.keyframe = id;
+    map_.add_sighting(point, sighting);
+  }
+  map_.update_depths();
+  create_points(camera_, options_, map_, id);
+  adjust_locally(camera_, map_, id, options_.local_keyframes);
+  publish();
+}
+
+void Mapper::weigh(const std::vector<PointEvidence>& evidence) {
+  for (const PointEvidence& e : evidence) {
+    if (!map_.has_point(e.point)) continue;
+    Map::Point& point = map_.point(e.point);
+    ++point.searched;
+    if (e.found) ++point.found;
+    if (point.searched >= kTrialFrames && point.found < kMinFoundShare * point.searched) {
+      map_.remove_point(e.point);
+    }
+  }
+}
+
+void Mapper::publish() {
+  auto view = std::make_shared<const MapView>(map_.view(++revision_));
+  const std::lock_guard lock(mutex_);
+  view_ = std::move(view);
+}
+
+}  // namespace lumibox::tracking

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "config/config.h"
+#include "geometry/camera.h"
+#include "tracking/initialiser.h"
+#include "tracking/map.h"
+#include "tracking/map_view.h"
+#include "tracking/tracker.h"
+
+namespace lumibox::tracking {
+
+/// What the tracker learnt about a point in one frame.
+struct PointEvidence {
+  PointId point = -1;
+  bool found = false;
+};
+
+/// A frame that the tracker wants to become a keyframe.
+struct KeyframeRequest {
+  KeyframeId reference = -1;  ///< keyframe its pose is relative to, so that corrections move it
+  geometry::Pose reference_from_camera;
+  std::shared_ptr<const Pyramid> pyramid;
+  std::vector<std::pair<PointId, Sighting>> sightings;  ///< their keyframe is set by the mapper
+  std::vector<PointEvidence> evidence;                  ///< since the last request
+};
+
+/// Makes and corrects the map, on a thread of its own or in turn with the tracker (Klein and
+/// Murray, ISMAR 2007, section 6). Publishes a copy of the map after every change.
+class Mapper {
+ public:
+  Mapper(const geometry::Camera& camera, const config::Tracking& options, Mapping mapping);
+  ~Mapper();
+  Mapper(const Mapper&) = delete;
+  Mapper& operator=(const Mapper&) = delete;
+
+  /// The first map, made before the call returns. There must be none yet.
+  void start(const InitialMap& initial);
+
+  /// In lockstep the map has changed when this returns.
+  void request(KeyframeRequest request);
+
+  /// True while requests wait or are worked on.
+  bool busy() const;
+
+  /// The newest published copy; null before start().
+  std::shared_ptr<const MapView> view() const;
+
+  /// Works off all requests, then adjusts the whole map.
+  void finish();
+
+ private:
+  void run();
+  void integrate(const KeyframeRequest& request);
+  void weigh(const std::vector<PointEvidence>& evidence);
+  void publish();
+
+  const geometry::Camera camera_;
+  const config::Tracking options_;
+  const Mapping mapping_;
+
+  Map map_;  // touched only by whoever runs the mapper
+  std::uint64_t revision_ = 0;
+
+  mutable std::mutex mutex_;  // guards what follows
+  std::condition_variable changed_;
+  std::deque<KeyframeRequest> requests_;
+  bool working_ = false;
+  bool stopping_ = false;
+  std::shared_ptr<const MapView> view_;
+
+  std::thread thread_;
+};
+
+}  // namespace lumibox::tracking

@@ -1,0 +1,86 @@
+#include "tracking/pose_estimator.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace lumibox::tracking {
+namespace {
+
+constexpr double kTukey = 4.685;   // 95 % efficiency on Gaussian noise (Huber, 1981)
+constexpr double kMinSigma = 0.3;  // pixels: alignment is not better than this, whatever MAD says
+constexpr double kMaxSigma = 4.0;  // pixels: more is no longer noise
+
+using Jacobian = Eigen::Matrix<double, 2, 6>;
+
+struct Residual {
+  Eigen::Vector2d error = Eigen::Vector2d::Zero();  // pixels of the level
+  Jacobian jacobian = Jacobian::Zero();             // by a twist from the left
+  bool valid = false;
+};
+
+Residual residual_of(const geometry::Camera& camera, const Measurement& m,
+                     const geometry::Pose& camera_from_world) {
+  Residual r;
+  const Eigen::Vector3d p = camera_from_world * m.position;
+  Eigen::Matrix<double, 2, 3> by_point;
+  const auto pixel = camera.project(p, &by_point);
+  if (!pixel) return r;
+  const double inverse_scale = 1.0 / static_cast<double>(1 << m.level);
+  r.error = (m.pixel - *pixel) * inverse_scale;
+  r.jacobian.leftCols<3>() = by_point * inverse_scale;
+  r.jacobian.rightCols<3>() = -by_point * inverse_scale * geometry::skew(p);
+  r.valid = true;
+  return r;
+}
+
+double robust_sigma(const std::vector<Residual>& residuals, std::vector<double>& scratch) {
+  scratch.clear();
+  for (const Residual& r : residuals) {
+    if (r.valid) scratch.push_back(r.error.norm());
+  }
+  if (scratch.empty()) return kMaxSigma;
+  const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(scratch.size() / 2);
+  std::nth_element(scratch.begin(), middle, scratch.end());
+  // The median length of a 2D Gaussian is 1.1774 sigma.
+  return std::clamp(*middle / 1.1774, kMinSigma, kMaxSigma);
+}
+
+}  // namespace
+
+PoseEstimate estimate_pose(const geometry::Camera& camera, std::span<Measurement> measurements,
+                           const geometry::Pose& start, int iterations) {
+  PoseEstimate estimate{start, 0, kMaxSigma};
+  std::vector<Residual> residuals(measurements.size());
+  std::vector<double> scratch;
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    for (std::size_t i = 0; i < measurements.size(); ++i) {
+      residuals[i] = residual_of(camera, measurements[i], estimate.camera_from_world);
+    }
+    estimate.sigma_px = robust_sigma(residuals, scratch);
+    const double cutoff2 = std::pow(kTukey * estimate.sigma_px, 2);
+    geometry::Matrix6d hessian = geometry::Matrix6d::Identity() * 1e-9;
+    geometry::Vector6d gradient = geometry::Vector6d::Zero();
+    for (const Residual& r : residuals) {
+      const double error2 = r.error.squaredNorm();
+      if (!r.valid || error2 >= cutoff2) continue;
+      const double weight = std::pow(1.0 - error2 / cutoff2, 2);
+      hessian.noalias() += weight * r.jacobian.transpose() * r.jacobian;
+      gradient.noalias() += weight * r.jacobian.transpose() * r.error;
+    }
+    const geometry::Vector6d step = hessian.ldlt().solve(gradient);
+    if (!step.allFinite()) break;
+    estimate.camera_from_world = geometry::exp_se3(step) * estimate.camera_from_world;
+    if (step.squaredNorm() < 1e-14) break;
+  }
+  const double cutoff2 = std::pow(kTukey * estimate.sigma_px, 2);
+  for (Measurement& m : measurements) {
+    const Residual r = residual_of(camera, m, estimate.camera_from_world);
+    m.inlier = r.valid && r.error.squaredNorm() < cutoff2;
+    estimate.inliers += m.inlier ? 1 : 0;
+  }
+  return estimate;
+}
+
+}  // namespace lumibox::tracking

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "geometry/camera.h"
+#include "geometry/pose.h"
+
+namespace lumibox::tracking {
+
+/// A map point found in a frame.
+struct Measurement {
+  std::uint32_t point = 0;                             ///< index into MapView::points
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< in world
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();     ///< on level 0
+  int level = 0;                                       ///< it was found on
+  bool inlier = false;                                 ///< set by estimate_pose
+};
+
+struct PoseEstimate {
+  geometry::Pose camera_from_world;
+  int inliers = 0;
+  double sigma_px = 0.0;  ///< robust standard deviation of the residuals, in pixels of their level
+};
+
+/// Pose that minimises Tukey's biweight of the reprojection errors, each in pixels of its level, by
+/// iteratively reweighted least squares on SE(3) from `start`; the scale is the median absolute
+/// deviation (Klein and Murray, ISMAR 2007, section 5.4). Marks the inliers.
+PoseEstimate estimate_pose(const geometry::Camera& camera, std::span<Measurement> measurements,
+                           const geometry::Pose& start, int iterations);
+
+}  // namespace lumibox::tracking
