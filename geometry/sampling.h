@@ -39,8 +39,8 @@ class Sampler {
 
 /// Number of samples of `sample_size` after which one free of outliers was drawn with probability
 /// 99.9 %, at most `limit` (Fischler and Bolles, 1981).
-inline int samples_needed(double inlier_fraction, int sample_size, int limit) {
-  const double good = std::pow(inlier_fraction, sample_size);
+inline int samples_needed(double inlier_fraction, std::size_t sample_size, int limit) {
+  const double good = std::pow(inlier_fraction, static_cast<double>(sample_size));
   if (good >= 0.999) return 1;
   if (good < 1e-9) return limit;
   const double needed = std::ceil(std::log(0.001) / std::log1p(-good));

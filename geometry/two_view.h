@@ -6,15 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "geometry/bearing_pair.h"
 #include "geometry/pose.h"
 
 namespace lumibox::geometry {
-
-/// One scene point as seen from two cameras: unit vectors, each in the frame of its camera.
-struct BearingPair {
-  Eigen::Vector3d first;
-  Eigen::Vector3d second;
-};
 
 enum class TwoViewOutcome {
   Ok,
