@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "render/blending.h"
+#include "render/sampling.h"
 
 namespace lumibox::render {
 namespace {
@@ -28,23 +29,6 @@ std::optional<Eigen::Vector3d> intersect(const Ray& ray, const Eigen::Vector3d& 
   return ray.origin + t * ray.direction;
 }
 
-Eigen::Vector3d texel(const hal::Image& image, int x, int y) {
-  const std::uint8_t* rgb = image.at(x, y);
-  return {static_cast<double>(rgb[0]), static_cast<double>(rgb[1]), static_cast<double>(rgb[2])};
-}
-
-/// Bilinear interpolation of the stored values; `pixel` lies within the outermost pixel centres.
-Eigen::Vector3d sample(const hal::Image& image, const Eigen::Vector2d& pixel) {
-  const int x0 = static_cast<int>(pixel.x());
-  const int y0 = static_cast<int>(pixel.y());
-  const int x1 = std::min(x0 + 1, image.width() - 1);
-  const int y1 = std::min(y0 + 1, image.height() - 1);
-  const double a = pixel.x() - x0;
-  const double b = pixel.y() - y0;
-  return (1.0 - b) * ((1.0 - a) * texel(image, x0, y0) + a * texel(image, x1, y0)) +
-         b * ((1.0 - a) * texel(image, x0, y1) + a * texel(image, x1, y1));
-}
-
 /// What one perspective shows at a pixel of the view: its colour there, and its weight (wide) or
 /// alpha (small) after feathering, 0 where it shows nothing.
 struct Contribution {
@@ -62,7 +46,7 @@ Contribution contribution(const Ray& ray, const Layer& layer,
   const hal::Image& image = *perspective.color;
   const double fade = feather(*pixel, image.width(), image.height(), settings.feather_px);
   if (fade <= 0.0) return {};
-  return {sample(image, *pixel), layer.weight * fade};
+  return {sample_bilinear(image, *pixel), layer.weight * fade};
 }
 
 /// Thesis 3.2, wide aperture: weighted mean.

@@ -1,0 +1,103 @@
+#include "render/leave_one_out.h"
+
+#include <cmath>
+#include <limits>
+
+#include "render/image_quality.h"
+#include "render/sampling.h"
+
+namespace lumibox::render {
+namespace {
+
+using lightfield::Perspective;
+
+struct Method {
+  std::string name;
+  Settings settings;
+};
+
+std::vector<Method> methods(const config::Render& options, const Eigen::Vector3d& focus) {
+  Settings nearest = settings_from(options, Aperture::Small, focus);
+  nearest.k = 1;
+  return {{"nearest", nearest},
+          {"plane-small", settings_from(options, Aperture::Small, focus)},
+          {"plane-wide", settings_from(options, Aperture::Wide, focus)}};
+}
+
+hal::Image both(hal::Image a, const hal::Image& b) {
+  for (std::size_t i = 0; i < a.size_bytes(); ++i) a.data()[i] &= b.data()[i];
+  return a;
+}
+
+/// Mean of one field over the views where it is a number.
+double mean_of(const std::vector<ViewQuality>& views, double Quality::*field) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const ViewQuality& view : views) {
+    const double value = view.quality.*field;
+    if (std::isnan(value)) continue;
+    sum += value;
+    count += 1.0;
+  }
+  return count > 0.0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
+}
+
+Quality mean_of(const std::vector<ViewQuality>& views) {
+  return {mean_of(views, &Quality::psnr), mean_of(views, &Quality::ssim),
+          mean_of(views, &Quality::psnr_subject), mean_of(views, &Quality::ssim_subject)};
+}
+
+}  // namespace
+
+UndistortedPicture undistort(const Perspective& perspective) {
+  const geometry::Camera& camera = *perspective.camera;
+  const geometry::Camera pinhole = camera.undistorted();
+  const hal::Image& from = *perspective.color;
+  UndistortedPicture result{hal::Image(pinhole.width(), pinhole.height(), 3),
+                            hal::Image(pinhole.width(), pinhole.height(), 1)};
+  for (int y = 0; y < pinhole.height(); ++y) {
+    for (int x = 0; x < pinhole.width(); ++x) {
+      const Eigen::Vector3d ray = pinhole.unproject(Eigen::Vector2d(x, y))->homogeneous();
+      const auto pixel = camera.project(ray);
+      if (!pixel || !camera.contains(*pixel)) continue;
+      const Eigen::Vector3d color = sample_bilinear(from, *pixel);
+      for (int c = 0; c < 3; ++c) {
+        result.color.at(x, y)[c] = static_cast<std::uint8_t>(std::lround(color[c]));
+      }
+      *result.valid.at(x, y) = 255;
+    }
+  }
+  return result;
+}
+
+std::vector<MethodQuality> leave_one_out(const std::vector<Perspective>& perspectives,
+                                         const lightfield::Sphere& subject,
+                                         const config::Render& options, const RenderView& render,
+                                         const std::function<void(std::size_t)>& each_view) {
+  const std::vector<Method> compared = methods(options, subject.center);
+  std::vector<MethodQuality> results;
+  for (const Method& method : compared) results.push_back({method.name, {}, {}});
+
+  for (std::size_t i = 0; i < perspectives.size(); ++i) {
+    if (each_view) each_view(i);
+    const Perspective& left_out = perspectives[i];
+    std::vector<Perspective> others = perspectives;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+
+    const View view{left_out.camera->undistorted(), left_out.world_from_camera};
+    const UndistortedPicture truth = undistort(left_out);
+    const hal::Image on_subject = both(subject_mask(view, subject), truth.valid);
+    for (std::size_t m = 0; m < compared.size(); ++m) {
+      const hal::Image picture = render(view, others, compared[m].settings);
+      results[m].views.push_back(
+          {left_out.id,
+           left_out.file,
+           {psnr(picture, truth.color, &truth.valid), ssim(picture, truth.color, &truth.valid),
+            psnr(picture, truth.color, &on_subject), ssim(picture, truth.color, &on_subject)}});
+    }
+  }
+  for (MethodQuality& result : results) result.mean = mean_of(result.views);
+  return results;
+}
+
+}  // namespace lumibox::render

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "config/config.h"
+#include "hal/image.h"
+#include "lightfield/perspective.h"
+#include "render/view.h"
+
+namespace lumibox::render {
+
+/// How like the photograph a picture is; NaN where there was nothing to compare.
+struct Quality {
+  double psnr = 0.0;          ///< dB
+  double ssim = 0.0;          ///< 0..1
+  double psnr_subject = 0.0;  ///< inside the sphere's outline
+  double ssim_subject = 0.0;
+};
+
+struct ViewQuality {
+  int perspective_id = 0;
+  std::string file;  ///< of the perspective
+  Quality quality;
+};
+
+struct MethodQuality {
+  std::string method;  ///< nearest, plane-small, plane-wide
+  Quality mean;        ///< over the views that had something to compare
+  std::vector<ViewQuality> views;
+};
+
+/// The renderer to be judged: the GL one or the reference.
+using RenderView = std::function<hal::Image(
+    const View&, const std::vector<lightfield::Perspective>&, const Settings&)>;
+
+/// A perspective's picture without its lens's distortion, at the same focal length and size.
+struct UndistortedPicture {
+  hal::Image color;  ///< three channels
+  hal::Image valid;  ///< one channel: 255 where the photograph has the pixel
+};
+UndistortedPicture undistort(const lightfield::Perspective& perspective);
+
+/// For each perspective in turn: its view rendered from all others, compared with its own
+/// undistorted photograph wherever that has pixels. Pixels that no other perspective covers stay
+/// black and count in full: that is what the person would see. `nearest` is the nearest picture
+/// alone on its plane. `each_view`, if set, is called before each view with its index.
+std::vector<MethodQuality> leave_one_out(const std::vector<lightfield::Perspective>& perspectives,
+                                         const lightfield::Sphere& subject,
+                                         const config::Render& options, const RenderView& render,
+                                         const std::function<void(std::size_t)>& each_view = {});
+
+}  // namespace lumibox::render
