@@ -12,8 +12,8 @@ namespace lumibox::config {
 
 struct Sources {
   std::filesystem::path system_file = "/etc/lumibox/lumibox.toml";  ///< read if it exists
-  std::optional<std::filesystem::path> file;                        ///< --config; must exist
-  std::vector<std::string> assignments;                             ///< --set section.key=value
+  std::optional<std::filesystem::path> file = {};                   ///< --config; must exist
+  std::vector<std::string> assignments = {};                        ///< --set section.key=value
 };
 
 /// Defaults, overridden by the system file, then `file`, then the assignments in order. An unknown

@@ -1,0 +1,101 @@
+#include "hal/offscreen/offscreen_display.h"
+
+#include <GLES3/gl3.h>
+
+#include <string>
+#include <vector>
+
+#include "config/error.h"
+#include "hal/offscreen/egl_context.h"
+
+namespace lumibox::hal {
+
+class OffscreenDisplay::Impl {
+ public:
+  Impl(int width, int height) : width_(width), height_(height) {
+    context_.make_current();
+    GLint max_size = 0;
+    glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &max_size);
+    if (width < 1 || height < 1 || width > max_size || height > max_size) {
+      throw size_error("expected 1 to " + std::to_string(max_size) + " pixels a side");
+    }
+    // Deleted with the context, which shares its objects with no other.
+    glGenRenderbuffers(1, &color_);
+    glBindRenderbuffer(GL_RENDERBUFFER, color_);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+    glGenFramebuffers(1, &framebuffer_);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color_);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+      throw size_error("the driver gives no framebuffer of this size");
+    }
+    context_.release();  // so that another thread may take it
+  }
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  unsigned framebuffer() const { return framebuffer_; }
+  void make_current() const { context_.make_current(); }
+
+  Image read_back() const {
+    context_.make_current();
+    constexpr std::size_t kChannels = 4;  // RGBA bytes are what every ES 3 driver can read
+    const auto row_bytes = static_cast<std::size_t>(width_) * kChannels;
+    std::vector<std::uint8_t> pixels(row_bytes * static_cast<std::size_t>(height_));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glPixelStorei(GL_PACK_ROW_LENGTH, 0);
+    glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+
+    Image image(width_, height_, 3);
+    for (int y = 0; y < height_; ++y) {
+      const std::uint8_t* source =
+          pixels.data() + static_cast<std::size_t>(height_ - 1 - y) * row_bytes;
+      std::uint8_t* target = image.row(y);
+      for (int x = 0; x < width_; ++x, source += kChannels, target += 3) {
+        target[0] = source[0];
+        target[1] = source[1];
+        target[2] = source[2];
+      }
+    }
+    return image;
+  }
+
+ private:
+  config::InputError size_error(const std::string& expected) const {
+    return config::InputError("offscreen display of " + std::to_string(width_) + "x" +
+                              std::to_string(height_) + ": " + expected);
+  }
+
+  int width_;
+  int height_;
+  EglContext context_;
+  GLuint color_ = 0;
+  GLuint framebuffer_ = 0;
+};
+
+OffscreenDisplay::OffscreenDisplay(int width, int height)
+    : impl_(std::make_unique<Impl>(width, height)) {}
+OffscreenDisplay::~OffscreenDisplay() = default;
+
+int OffscreenDisplay::width() const {
+  return impl_->width();
+}
+int OffscreenDisplay::height() const {
+  return impl_->height();
+}
+void OffscreenDisplay::make_current() {
+  impl_->make_current();
+}
+unsigned OffscreenDisplay::framebuffer() const {
+  return impl_->framebuffer();
+}
+void OffscreenDisplay::present() {
+  glFlush();
+}
+Image OffscreenDisplay::read_back() const {
+  return impl_->read_back();
+}
+
+}  // namespace lumibox::hal

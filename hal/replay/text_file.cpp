@@ -1,6 +1,6 @@
 #include "hal/replay/text_file.h"
 
-#include <cctype>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -81,11 +81,8 @@ void TextLine::expect_count(int min, int max, const std::string& expected) const
 
 std::string TextLine::quoted(std::size_t column) const {
   constexpr std::size_t kMaxLength = 40;
-  std::string text = "'";
-  for (const char c : fields_.at(column).substr(0, kMaxLength)) {
-    text += std::isprint(static_cast<unsigned char>(c)) != 0 ? c : '?';
-  }
-  return text + "'";
+  std::string text(1, '\'');
+  return text.append(fields_.at(column).substr(0, kMaxLength)) + "'";
 }
 
 InputError TextLine::error(const std::string& message) const {

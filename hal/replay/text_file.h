@@ -27,7 +27,7 @@ class TextLine {
   /// Throws unless there are min to max fields; `expected` names them.
   void expect_count(int min, int max, const std::string& expected) const;
 
-  /// The text of a column for an error message, cut and cleaned of control characters.
+  /// The text of a column for an error message, cut to a readable length.
   std::string quoted(std::size_t column) const;
 
   /// An error that names file and line, to be thrown by the caller.
