@@ -142,7 +142,10 @@ TwoViewResult solve_two_view(std::span<const BearingPair> pairs, const TwoViewOp
   const RansacOptions ransac{options.sigma_rad, options.max_iterations, options.seed};
   const ModelFit still = assess_no_motion(pairs, options.sigma_rad);
   const ModelFit rotation = find_rotation(pairs, ransac);
-  const ModelFit plane = find_homography(pairs, ransac);
+  // Samples of four need fewer draws than samples of five, and where most pairs are not on one
+  // plane no number of draws would do.
+  const RansacOptions plane_ransac{options.sigma_rad, options.max_iterations / 3, options.seed};
+  const ModelFit plane = find_homography(pairs, plane_ransac);
   const ModelFit general = find_essential(pairs, ransac);
 
   const bool is_still = still.criterion <= rotation.criterion;

@@ -23,12 +23,18 @@ constexpr int kFullIterations = 20;
 /// The set of inliers changes with the model; after this many rounds it has settled.
 constexpr int kFullRounds = 4;
 
+/// A model from few pairs is refined on all up to this many times an inlier's squared error (Chum,
+/// Matas and Kittler, "Locally optimized RANSAC", 2003): its own inliers alone would hold it back.
+constexpr double kNearFactor = 4.0;
+
+constexpr double kLog4 = 2.0 * std::numbers::ln2;
+
 // Each estimator below offers
 //   kSample           pairs per sample
 //   kFreeDimensions   coordinates of a point that the model leaves free, of the 4 that are observed
 //   kParameters       of the model
 //   solve(sample)     models through the sample
-//   polish(...)       the model nearest to the one given that fits all inliers best
+//   polish(...)       the model nearest to the one given that fits the flagged pairs best
 //   Error(model)      a function from a pair to its squared error in radians^2
 
 std::vector<BearingPair> select(std::span<const BearingPair> pairs,
@@ -50,8 +56,8 @@ struct RotationEstimator {
     return {fit_rotation(sample).toRotationMatrix()};
   }
   static Matrix3d polish(const Matrix3d& start, std::span<const BearingPair> pairs,
-                         const std::vector<bool>& inliers, int /*iterations*/) {
-    const std::vector<BearingPair> used = select(pairs, inliers);
+                         const std::vector<bool>& use, int /*iterations*/) {
+    const std::vector<BearingPair> used = select(pairs, use);
     return used.size() < kSample ? start : solve(used).front();
   }
   struct Error {
@@ -82,8 +88,8 @@ struct HomographyEstimator {
     return {*homography};
   }
   static Matrix3d polish(const Matrix3d& start, std::span<const BearingPair> pairs,
-                         const std::vector<bool>& inliers, int /*iterations*/) {
-    const std::vector<Matrix3d> refined = solve(select(pairs, inliers));
+                         const std::vector<bool>& use, int /*iterations*/) {
+    const std::vector<Matrix3d> refined = solve(select(pairs, use));
     return refined.empty() ? start : refined.front();
   }
   struct Error {
@@ -105,10 +111,10 @@ struct EssentialEstimator {
     return solve_essential(sample);
   }
   static Matrix3d polish(const Matrix3d& start, std::span<const BearingPair> pairs,
-                         const std::vector<bool>& inliers, int iterations) {
+                         const std::vector<bool>& use, int iterations) {
     // All four motions of an essential matrix give the same one back.
     const Pose motion = motions_of_essential(start)[0];
-    return essential_from_motion(refine_motion(motion, pairs, inliers, iterations));
+    return essential_from_motion(refine_motion(motion, pairs, use, iterations));
   }
   struct Error {
     explicit Error(const Matrix3d& e) : essential(e) {}
@@ -117,8 +123,6 @@ struct EssentialEstimator {
   };
 };
 
-constexpr double kLog4 = 2.0 * std::numbers::ln2;
-
 /// Finds the model with the lowest criterion by sampling.
 template <typename Estimator>
 class Ransac {
@@ -126,7 +130,8 @@ class Ransac {
   Ransac(std::span<const BearingPair> pairs, double sigma_rad)
       : pairs_(pairs), inverse_variance_(1.0 / (sigma_rad * sigma_rad)) {
     best_.inliers.assign(pairs.size(), false);
-    best_.criterion = constant_cost() + kOutlierCost * static_cast<double>(pairs.size());
+    near_ = best_.inliers;
+    best_.criterion = constant_cost() + kBound * static_cast<double>(pairs.size());
   }
 
   /// Takes the model over if it is better than the best so far.
@@ -134,14 +139,16 @@ class Ransac {
     const typename Estimator::Error error(model);
     double cost = constant_cost();
     for (const BearingPair& pair : pairs_) {
-      cost += pair_cost(error, pair);
+      cost += std::min(error(pair) * inverse_variance_, kBound);
       if (!(cost < best_.criterion)) return false;
     }
     best_.model = model;
     best_.criterion = cost;
     best_.inlier_count = 0;
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
-      best_.inliers[i] = pair_cost(error, pairs_[i]) < kOutlierCost;
+      const double variances = error(pairs_[i]) * inverse_variance_;
+      near_[i] = variances < kNearFactor * kBound;
+      best_.inliers[i] = variances < kBound;
       best_.inlier_count += best_.inliers[i] ? 1 : 0;
     }
     return true;
@@ -157,13 +164,13 @@ class Ransac {
       bool improved = false;
       for (const Matrix3d& model : Estimator::solve(sample)) improved |= improve(model);
       if (!improved) continue;
-      improve(Estimator::polish(best_.model, pairs_, best_.inliers, kQuickIterations));
+      improve(Estimator::polish(best_.model, pairs_, near_, kQuickIterations));
       const double fraction =
           static_cast<double>(best_.inlier_count) / static_cast<double>(pairs_.size());
       needed = samples_needed(fraction, Estimator::kSample, options.max_samples);
     }
     for (int round = 0; round < kFullRounds && best_.inlier_count > 0; ++round) {
-      if (!improve(Estimator::polish(best_.model, pairs_, best_.inliers, kFullIterations))) break;
+      if (!improve(Estimator::polish(best_.model, pairs_, near_, kFullIterations))) break;
     }
     return best_;
   }
@@ -171,17 +178,20 @@ class Ransac {
   const ModelFit& best() const { return best_; }
 
  private:
+  /// Squared error in variances from which a pair is an outlier.
+  static constexpr double kBound = kOutlierCost - Estimator::kFreeDimensions * kLog4;
+
+  /// What a model with no errors costs.
   double constant_cost() const {
-    return Estimator::kParameters * std::log(4.0 * static_cast<double>(pairs_.size()));
-  }
-  double pair_cost(const typename Estimator::Error& error, const BearingPair& pair) const {
-    return std::min(error(pair) * inverse_variance_ + Estimator::kFreeDimensions * kLog4,
-                    kOutlierCost);
+    const auto count = static_cast<double>(pairs_.size());
+    return Estimator::kParameters * std::log(4.0 * count) +
+           Estimator::kFreeDimensions * kLog4 * count;
   }
 
   std::span<const BearingPair> pairs_;
   double inverse_variance_;
   ModelFit best_;
+  std::vector<bool> near_;  ///< pairs that the model is refined on
 };
 
 }  // namespace
