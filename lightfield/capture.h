@@ -7,25 +7,39 @@
 
 namespace lumibox::lightfield {
 
-/// A capture folder read into memory: the light field and the points of its map.
+/// A capture in memory: the light field and the points of its map.
 struct Capture {
   LightField light_field;
   std::vector<Eigen::Vector3d> points;  ///< in world; may be empty
+  /// Where the pictures' original files lie: Perspective::file is relative to it. Empty if there
+  /// are none.
+  std::filesystem::path folder;
 };
 
-/// Reads a capture folder (transforms.json, images, points.ply). Throws config::InputError that
-/// names the file and what was expected.
+/// Reads a capture folder (transforms.json, images, points.ply; docs/capture-format.md). Throws
+/// config::InputError that names the file and what was expected.
 Capture load_capture(const std::filesystem::path& folder);
 
-/// Reads SOURCE, which is a nerfstudio or instant-ngp transforms.json, or a folder with a COLMAP
-/// model (text or binary; images beside it or in images/). Where the source names no subject,
-/// S is the point nearest to all optical axes. Errors as load_capture.
+/// Reads SOURCE, which is a nerfstudio or instant-ngp transforms.json (or its folder), or a folder
+/// with a COLMAP model (text or binary; the folder itself, its sparse/0 or its sparse; images
+/// beside it or in images/). Where the source names no subject, S is the point nearest to all
+/// optical axes. Errors as load_capture.
 Capture import_capture(const std::filesystem::path& source);
 
-enum class ExportFormat { Nerfstudio, Colmap };
+/// Writes a capture folder that load_capture reads. Pictures whose original file exists are copied
+/// byte for byte, others become JPEGs of `jpeg_quality`. transforms.json comes last: a folder that
+/// has one is complete. Throws config::InputError if `folder` exists and is not empty, or on the
+/// first error of the disk.
+void save_capture(const Capture& capture, const std::filesystem::path& folder, int jpeg_quality);
 
-/// Writes a capture in another layout into `folder`, which must be empty or absent.
+enum class ExportFormat {
+  Nerfstudio,  ///< transforms.json without the box's own keys, images/, points.ply
+  Colmap,      ///< text model: cameras.txt, images.txt, points3D.txt, images/
+};
+
+/// Writes a capture in another layout into `folder`, which must be empty or absent. Pictures and
+/// errors as save_capture.
 void export_capture(const Capture& capture, ExportFormat format,
-                    const std::filesystem::path& folder);
+                    const std::filesystem::path& folder, int jpeg_quality = 95);
 
 }  // namespace lumibox::lightfield

@@ -1,0 +1,158 @@
+#include "lightfield/store.h"
+
+#include <cassert>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "config/error.h"
+#include "lightfield/capture_writer.h"
+
+namespace lumibox::lightfield {
+
+/// A queue of changes before a CaptureWriter; the writer is touched by one thread only.
+class Store::Impl {
+ public:
+  using Change = std::function<void(CaptureWriter&)>;
+
+  Impl(const std::filesystem::path& folder, int jpeg_quality, Writing writing, DurableFiles files)
+      : writer_(folder, jpeg_quality, std::move(files)) {
+    if (writing == Writing::Threaded) thread_ = std::thread([this] { run(); });
+  }
+
+  ~Impl() {
+    post([](CaptureWriter& writer) {
+      writer.commit_moves();
+      writer.remove_unnamed_pictures();
+    });
+    if (!thread_.joinable()) return;
+    {
+      const std::lock_guard lock(mutex_);
+      stopping_ = true;
+    }
+    wake_.notify_all();
+    thread_.join();
+  }
+
+  void post(Change change) {
+    if (!thread_.joinable()) {
+      apply({std::move(change)});
+      return;
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      queue_.push_back(std::move(change));
+    }
+    wake_.notify_all();
+  }
+
+  void flush() {
+    post([](CaptureWriter& writer) { writer.commit_moves(); });
+    {
+      std::unique_lock lock(mutex_);
+      idle_.wait(lock, [this] { return queue_.empty() && !busy_; });
+    }
+    if (const auto message = error()) throw config::InputError(*message);
+  }
+
+  std::optional<std::string> error() const {
+    const std::lock_guard lock(mutex_);
+    return error_;
+  }
+
+  const std::filesystem::path& folder() const { return writer_.folder(); }
+
+ private:
+  void run() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+      wake_.wait(lock, [this] { return stopping_ || !queue_.empty(); });
+      if (queue_.empty()) return;
+      const std::vector<Change> changes = std::exchange(queue_, {});
+      busy_ = true;
+      lock.unlock();
+      apply(changes);
+      lock.lock();
+      busy_ = false;
+      idle_.notify_all();
+    }
+  }
+
+  /// Changes that have queued up share one transforms.json.
+  void apply(const std::vector<Change>& changes) {
+    if (error()) return;
+    attempt([&] {
+      for (const Change& change : changes) change(writer_);
+    });
+    // After an error too: what was complete before it is named.
+    attempt([this] { writer_.commit(); });
+  }
+
+  void attempt(const std::function<void()>& action) {
+    try {
+      action();
+    } catch (const std::exception& exception) {
+      const std::lock_guard lock(mutex_);
+      if (!error_) error_ = exception.what();
+    }
+  }
+
+  CaptureWriter writer_;
+  mutable std::mutex mutex_;  ///< guards all below
+  std::condition_variable wake_;
+  std::condition_variable idle_;
+  std::vector<Change> queue_;
+  std::optional<std::string> error_;
+  bool busy_ = false;
+  bool stopping_ = false;
+  std::thread thread_;  ///< last: it uses all of the above
+};
+
+Store::Store(const std::filesystem::path& folder, int jpeg_quality, Writing writing,
+             DurableFiles files)
+    : impl_(std::make_unique<Impl>(folder, jpeg_quality, writing, std::move(files))) {}
+
+Store::~Store() = default;
+
+void Store::set_subject(const Sphere& sphere) {
+  impl_->post([sphere](CaptureWriter& writer) { writer.set_subject(sphere); });
+}
+
+void Store::add(const Perspective& perspective) {
+  assert(perspective.color && perspective.camera);
+  impl_->post([perspective](CaptureWriter& writer) { writer.add(perspective); });
+}
+
+void Store::remove(int id) {
+  impl_->post([id](CaptureWriter& writer) { writer.remove(id); });
+}
+
+void Store::restore(const Perspective& perspective) {
+  assert(perspective.color && perspective.camera);
+  impl_->post([perspective](CaptureWriter& writer) { writer.restore(perspective); });
+}
+
+void Store::set_pose(int id, const geometry::Pose& world_from_camera) {
+  impl_->post(
+      [id, world_from_camera](CaptureWriter& writer) { writer.set_pose(id, world_from_camera); });
+}
+
+void Store::set_points(std::vector<Eigen::Vector3d> points) {
+  impl_->post([points = std::move(points)](CaptureWriter& writer) { writer.set_points(points); });
+}
+
+std::optional<std::string> Store::error() const {
+  return impl_->error();
+}
+
+void Store::flush() {
+  impl_->flush();
+}
+
+const std::filesystem::path& Store::folder() const {
+  return impl_->folder();
+}
+
+}  // namespace lumibox::lightfield

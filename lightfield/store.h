@@ -3,8 +3,10 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "lightfield/durable_files.h"
 #include "lightfield/light_field.h"
 
 namespace lumibox::lightfield {
@@ -18,26 +20,34 @@ enum class Writing {
 /// A capture on disk, written as it is recorded. At every instant the folder holds a
 /// transforms.json that is a valid nerfstudio data set: pictures are written and synced before a
 /// transforms.json that names them; that is written aside, synced, renamed, and its folder synced.
+/// Both ways of writing leave the same bytes.
 class Store {
  public:
   /// Creates `folder`, or opens it if empty. Refuses (config::InputError) a folder that already
   /// holds something: nothing recorded is ever overwritten.
-  Store(const std::filesystem::path& folder, int jpeg_quality, Writing writing);
+  Store(const std::filesystem::path& folder, int jpeg_quality, Writing writing,
+        DurableFiles files = {});
+
+  /// Writes what is left, then removes the pictures of wiped perspectives.
   ~Store();
   Store(const Store&) = delete;
   Store& operator=(const Store&) = delete;
 
-  /// Each returns at once when Threaded. The pictures of wiped perspectives stay on disk, unnamed,
-  /// until close(), so that undo finds them.
-  void set_subject(const Sphere& sphere);
+  /// Each returns at once when Threaded. Perspectives come with the id that their LightField gave
+  /// them, picture and camera. The pictures of wiped ones stay on disk, unnamed, until the Store
+  /// ends, so that undo finds them.
   void add(const Perspective& perspective);
   void remove(int id);
   void restore(const Perspective& perspective);
-  void set_pose(int id, const geometry::Pose& world_from_camera);
   void set_points(std::vector<Eigen::Vector3d> points);
 
+  /// A correction of the map moves the sphere and many perspectives at once: moves are written
+  /// together, with the next change of another kind or flush(). Unknown ids are ignored.
+  void set_subject(const Sphere& sphere);
+  void set_pose(int id, const geometry::Pose& world_from_camera);
+
   /// First error of the writer (disk full, folder gone), as a sentence with the path; none if all
-  /// is well. What was complete before stays loadable.
+  /// is well. After an error nothing more is written: what was complete before stays loadable.
   std::optional<std::string> error() const;
 
   /// Waits until everything handed over is on disk. Throws config::InputError on error().

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "lightfield/durable_files.h"
+#include "lightfield/perspective.h"
+
+namespace lumibox::lightfield {
+
+/// Writes a capture folder as it is recorded, in the calling thread: pictures at once,
+/// transforms.json by commit(). All functions throw config::InputError; the folder then holds the
+/// capture as of the last successful commit.
+class CaptureWriter {
+ public:
+  /// Makes the folder with an empty capture in it.
+  CaptureWriter(std::filesystem::path folder, int jpeg_quality, DurableFiles files);
+
+  void add(const Perspective& perspective);
+  void remove(int id);
+  void restore(const Perspective& perspective);
+  void set_points(const std::vector<Eigen::Vector3d>& points);
+
+  /// Moves, of which a correction of the map makes many, wait for the next commit after a change
+  /// of another kind; no commit ever writes a part of them.
+  void set_subject(const Sphere& sphere);
+  void set_pose(int id, const geometry::Pose& world_from_camera);
+
+  /// Brings transforms.json up to date if something but moves has changed.
+  void commit();
+  /// The same, if only moves have, too.
+  void commit_moves();
+
+  /// Removes the pictures that the transforms.json on disk does not name.
+  void remove_unnamed_pictures();
+
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  void put(const Perspective& perspective);
+
+  std::filesystem::path folder_;
+  int jpeg_quality_;
+  DurableFiles files_;
+  std::map<int, Perspective> named_;  ///< by id, without their pictures
+  std::optional<Sphere> subject_;
+  bool has_points_ = false;
+  bool changed_ = false;                 ///< there is something that commit() must write
+  bool moved_ = false;                   ///< there are moves that wait for it
+  std::set<std::string> pictures_;       ///< written in this capture
+  std::set<std::string> named_on_disk_;  ///< by the transforms.json on disk
+};
+
+}  // namespace lumibox::lightfield

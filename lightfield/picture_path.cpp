@@ -1,0 +1,47 @@
+#include "lightfield/picture_path.h"
+
+#include "config/error.h"
+#include "hal/image_io.h"
+
+namespace lumibox::lightfield {
+
+namespace fs = std::filesystem;
+
+bool stays_inside(const std::string& path) {
+  // A zero byte would end the name early for the system but not for us.
+  if (path.empty() || path.find('\0') != std::string::npos) return false;
+  const fs::path normal = fs::path(path).lexically_normal();
+  return normal.is_relative() && normal != "." && *normal.begin() != "..";
+}
+
+void require_pictures(const fs::path& file, const fs::path& folder,
+                      const std::vector<std::string>& pictures) {
+  constexpr int kMostNamed = 5;
+  int missing = 0;
+  std::string names;
+  for (const std::string& picture : pictures) {
+    std::error_code error;
+    if (fs::is_regular_file(folder / picture, error)) continue;
+    if (++missing <= kMostNamed) names += (missing > 1 ? ", " : "") + picture;
+  }
+  if (missing == 0) return;
+  if (missing > kMostNamed) names += ", ...";
+  throw config::InputError(file, std::to_string(missing) + " of " +
+                                     std::to_string(pictures.size()) + " pictures are missing in " +
+                                     (folder.empty() ? "." : folder.string()) + ": " + names);
+}
+
+std::shared_ptr<const hal::Image> read_picture(const fs::path& path,
+                                               const geometry::Camera& camera) {
+  hal::Image image = hal::read_image(path);
+  if (image.width() != camera.width() || image.height() != camera.height()) {
+    throw config::InputError(path, "is " + std::to_string(image.width()) + "x" +
+                                       std::to_string(image.height()) + ", its camera says " +
+                                       std::to_string(camera.width()) + "x" +
+                                       std::to_string(camera.height()));
+  }
+  if (image.channels() != 3) image = hal::to_rgb(image);
+  return std::make_shared<const hal::Image>(std::move(image));
+}
+
+}  // namespace lumibox::lightfield

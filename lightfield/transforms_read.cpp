@@ -1,0 +1,207 @@
+#include <cmath>
+#include <set>
+
+#include "config/error.h"
+#include "hal/image_io.h"
+#include "lightfield/camera_io.h"
+#include "lightfield/json_value.h"
+#include "lightfield/opengl_axes.h"
+#include "lightfield/picture_path.h"
+#include "lightfield/transforms.h"
+
+namespace lumibox::lightfield {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Rotations of ours are exact to rounding; those of others were often printed with few digits.
+constexpr double kOwnRotationTolerance = 1e-9;
+constexpr double kForeignRotationTolerance = 1e-2;
+
+/// Far beyond any clock (146 years), and arithmetic on times cannot overflow.
+constexpr long long kLatestNs = 1LL << 62;
+
+/// A frame's member where it has one, else the file's.
+std::optional<JsonValue> find(const JsonValue& frame, const JsonValue& top, const char* key) {
+  if (frame.has(key)) return frame.at(key);
+  if (top.has(key)) return top.at(key);
+  return std::nullopt;
+}
+
+void refuse_other_lenses(const JsonValue& frame, const JsonValue& top) {
+  static const std::set<std::string> kKnown{"OPENCV", "PINHOLE", "SIMPLE_PINHOLE", "RADIAL",
+                                            "SIMPLE_RADIAL"};
+  if (const auto model = find(frame, top, "camera_model");
+      model && !kKnown.contains(model->text())) {
+    model->fail("is " + model->text() + ", expected OPENCV or a special case of it");
+  }
+  for (const char* key : {"k4", "ftheta_p0"}) {
+    if (const auto value = find(frame, top, key); value && value->number() != 0.0) {
+      value->fail("is not zero, expected the OPENCV model, which has k1 k2 p1 p2 k3");
+    }
+  }
+  if (const auto fisheye = find(frame, top, "is_fisheye"); fisheye && fisheye->boolean()) {
+    fisheye->fail("is true, expected a camera without fisheye lens");
+  }
+}
+
+/// Intrinsics of a frame; `picture` gives the size where the file does not.
+config::CameraProfile read_lens(const JsonValue& frame, const JsonValue& top,
+                                const fs::path& picture) {
+  refuse_other_lenses(frame, top);
+  const auto number = [&](const char* key, double fallback) {
+    const auto value = find(frame, top, key);
+    return value ? value->number() : fallback;
+  };
+  config::CameraProfile c;
+  const auto width = find(frame, top, "w");
+  const auto height = find(frame, top, "h");
+  if (width && height) {
+    c.width = static_cast<int>(width->integer(1, 65535));
+    c.height = static_cast<int>(height->integer(1, 65535));
+  } else {
+    const hal::ImageInfo info = hal::read_image_info(picture);
+    c.width = info.width;
+    c.height = info.height;
+  }
+  const auto focal = [&](const char* length_key, const char* angle_key, int side) {
+    if (const auto length = find(frame, top, length_key)) return length->number();
+    if (const auto angle = find(frame, top, angle_key)) {
+      return 0.5 * side / std::tan(0.5 * angle->number());
+    }
+    return 0.0;
+  };
+  c.fx = focal("fl_x", "camera_angle_x", c.width);
+  c.fy = focal("fl_y", "camera_angle_y", c.height);
+  if (c.fx == 0.0 && c.fy == 0.0) frame.fail("has neither fl_x nor camera_angle_x");
+  if (c.fx == 0.0) c.fx = c.fy;
+  if (c.fy == 0.0) c.fy = c.fx;
+  c.cx = number("cx", 0.5 * c.width) - kForeignPixelCentre;
+  c.cy = number("cy", 0.5 * c.height) - kForeignPixelCentre;
+  c.k1 = number("k1", 0.0);
+  c.k2 = number("k2", 0.0);
+  c.p1 = number("p1", 0.0);
+  c.p2 = number("p2", 0.0);
+  c.k3 = number("k3", 0.0);
+  if (const std::string wrong = flaw(c); !wrong.empty()) frame.fail("has " + wrong);
+  return c;
+}
+
+geometry::Pose read_matrix(const JsonValue& value, double tolerance) {
+  const std::vector<JsonValue> rows = value.items();
+  if (rows.size() != 3 && rows.size() != 4) {
+    value.fail("has " + std::to_string(rows.size()) + " rows, expected 4");
+  }
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    matrix.row(static_cast<Eigen::Index>(r)) = rows[r].numbers(4).transpose();
+  }
+  const auto pose = pose_from_opengl(matrix, tolerance);
+  if (!pose) value.fail("is not a rotation and a translation, expected camera to world");
+  return *pose;
+}
+
+/// The members under "lumibox" of a frame.
+void read_own_keys(const JsonValue& own, Perspective* perspective) {
+  constexpr long long kLargestId = 1LL << 30;
+  perspective->id = static_cast<int>(own.at("id").integer(0, kLargestId));
+  perspective->timestamp_ns = own.at("timestamp_ns").integer(-kLatestNs, kLatestNs);
+  if (!own.has("keyframe")) return;
+  perspective->keyframe = static_cast<int>(own.at("keyframe").integer(0, kLargestId));
+  const JsonValue pose = own.at("keyframe_from_camera");
+  const Eigen::VectorXd q = pose.at("rotation_wxyz").numbers(4);
+  if (std::abs(q.norm() - 1.0) > kOwnRotationTolerance) {
+    pose.at("rotation_wxyz").fail("is not a unit quaternion");
+  }
+  perspective->keyframe_from_camera = geometry::Pose(
+      Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized(), pose.at("translation").numbers(3));
+}
+
+Sphere read_sphere(const JsonValue& subject) {
+  Sphere sphere;
+  sphere.center = subject.at("center").numbers(3);
+  sphere.radius = subject.at("radius").number();
+  if (sphere.radius <= 0.0) subject.at("radius").fail("is not positive");
+  return sphere;
+}
+
+/// The text at `value`, a path of a file in the same folder or below.
+std::string read_path(const JsonValue& value) {
+  std::string path = value.text();
+  if (!stays_inside(path)) value.fail("is \"" + path + "\", expected a path inside the folder");
+  return path;
+}
+
+/// instant-ngp's own data sets leave out the extension.
+std::string with_extension(const fs::path& folder, const std::string& name) {
+  std::error_code error;
+  if (fs::is_regular_file(folder / name, error)) return name;
+  for (const char* extension : {".png", ".jpg", ".jpeg", ".PNG", ".JPG"}) {
+    if (fs::is_regular_file(folder / (name + extension), error)) return name + extension;
+  }
+  return name;
+}
+
+std::vector<std::string> read_picture_names(const std::vector<JsonValue>& frames,
+                                            const fs::path& file, Dialect dialect) {
+  const fs::path folder = file.parent_path();
+  std::vector<std::string> names;
+  for (const JsonValue& frame : frames) {
+    names.push_back(read_path(frame.at("file_path")));
+    if (dialect == Dialect::Foreign) names.back() = with_extension(folder, names.back());
+  }
+  require_pictures(file, folder, names);
+  return names;
+}
+
+std::int64_t read_foreign_time(const JsonValue& frame) {
+  const double ns = frame.number_or("timestamp", 0.0) * 1e9;
+  if (std::abs(ns) > static_cast<double>(kLatestNs)) frame.fail("has a timestamp out of range");
+  return std::llround(ns);
+}
+
+}  // namespace
+
+Transforms read_transforms(const fs::path& file, Dialect dialect) {
+  const JsonFile json(file);
+  const JsonValue top = json.root();
+  const bool own = dialect == Dialect::Capture;
+  if (own && !top.has("lumibox")) {
+    throw config::InputError(file,
+                             "has no \"lumibox\" member, expected a capture: make one of other "
+                             "data sets with `lumibox import`");
+  }
+  Transforms transforms;
+  if (top.has("lumibox")) {
+    const JsonValue keys = top.at("lumibox");
+    keys.at("version").integer(1, 1);
+    if (keys.has("subject")) transforms.subject = read_sphere(keys.at("subject"));
+  }
+  if (top.has("ply_file_path")) {
+    transforms.points_file = read_path(top.at("ply_file_path"));
+  }
+
+  CameraPool cameras;
+  std::set<int> ids;
+  const std::vector<JsonValue> frames = top.at("frames").items();
+  const std::vector<std::string> pictures = read_picture_names(frames, file, dialect);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const JsonValue& frame = frames[i];
+    Perspective perspective;
+    perspective.id = static_cast<int>(i);
+    perspective.file = pictures[i];
+    if (own) {
+      read_own_keys(frame.at("lumibox"), &perspective);
+    } else {
+      perspective.timestamp_ns = read_foreign_time(frame);
+    }
+    perspective.camera = cameras.get(read_lens(frame, top, file.parent_path() / perspective.file));
+    perspective.world_from_camera = read_matrix(
+        frame.at("transform_matrix"), own ? kOwnRotationTolerance : kForeignRotationTolerance);
+    if (!ids.insert(perspective.id).second) frame.fail("has the id of an earlier frame");
+    transforms.perspectives.push_back(std::move(perspective));
+  }
+  return transforms;
+}
+
+}  // namespace lumibox::lightfield
