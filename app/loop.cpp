@@ -11,17 +11,14 @@ Loop::Loop(Devices& devices, const config::Config& config, std::filesystem::path
       config_(config),
       camera_(devices.camera->profile()),
       tracker_(camera_, config.tracking, threading.mapping, /*seed=*/0),
+      sight_(*devices.camera, *devices.clock, tracker_),
       recorder_(camera_, config.capture, threading.writing),
       session_{config_, std::move(captures), recorder_,
                config.capture.threshold_deg * std::numbers::pi / 180.0},
       modes_(session_, camera_),
       gestures_(config.controls.long_press_s),
       metronome_(*devices.clock, config.loop.rate_hz),
-      screen_(*devices.display, camera_) {
-  moment_.map.world_from_keyframe = [this](tracking::KeyframeId id) {
-    return tracker_.world_from_keyframe(id);
-  };
-}
+      screen_(*devices.display, camera_) {}
 
 void Loop::run(const std::function<bool()>& go_on) {
   do {
@@ -42,23 +39,14 @@ void Loop::tick() {
   ++statistics_.ticks;
 }
 
-/// Takes the newest frame and tracks it. Without a new one the moment before stays, but for the
-/// time.
 const Moment& Loop::look() {
-  moment_.now_ns = devices_.clock->now_ns();
-  std::optional<hal::Frame> frame = devices_.camera->take_newest();
-  moment_.fresh = frame.has_value();
-  if (frame) {
-    moment_.frame = std::move(*frame);
-    moment_.tracked =
-        tracker_.track(*moment_.frame.gray, moment_.frame.index, moment_.frame.timestamp_ns);
-    moment_.map_points = tracker_.visible_points();
+  const Moment& moment = sight_.look();
+  recorder_.follow_map(moment.map, config_.capture.moved_share);
+  if (moment.fresh) {
     ++statistics_.frames;
-    statistics_.tracked += moment_.tracked.world_from_camera ? 1 : 0;
+    statistics_.tracked += moment.tracked.world_from_camera ? 1 : 0;
   }
-  moment_.map.revision = tracker_.map_revision();
-  recorder_.follow_map(moment_.map, config_.capture.moved_share);
-  return moment_;
+  return moment;
 }
 
 void Loop::hold_exposure(bool hold) {
@@ -81,16 +69,13 @@ void Loop::show(Picture picture) {
   if (const auto error = recorder_.error()) {
     picture_.alerts.push_back("not stored: " + *error);
   }
-  screen_.draw(picture_, moment_.frame);
+  screen_.draw(picture_, sight_.moment().frame);
   devices_.display->present();
 }
 
 void Loop::finish() {
   tracker_.finish();
-  moment_.map.revision = tracker_.map_revision();
-  recorder_.follow_map(moment_.map, 0.0);
-  recorder_.set_points(tracker_.points());
-  recorder_.flush();
+  recorder_.finish(tracker_);
 }
 
 LoopStatistics Loop::statistics() const {

@@ -11,18 +11,12 @@
 #include "app/modes/modes.h"
 #include "app/recorder.h"
 #include "app/screen.h"
+#include "app/sight.h"
+#include "app/threading.h"
 #include "config/config.h"
 #include "tracking/tracker.h"
 
 namespace lumibox::app {
-
-/// How the work beside the loop is done.
-struct Threading {
-  tracking::Mapping mapping = tracking::Mapping::Threaded;
-  lightfield::Writing writing = lightfield::Writing::Threaded;
-};
-inline constexpr Threading kThreaded{tracking::Mapping::Threaded, lightfield::Writing::Threaded};
-inline constexpr Threading kLockstep{tracking::Mapping::Lockstep, lightfield::Writing::Inline};
 
 /// What a run came to.
 struct LoopStatistics {
@@ -49,9 +43,10 @@ class Loop {
   void finish();
 
   ModeId mode() const { return modes_.current(); }
-  const Moment& moment() const { return moment_; }
+  const Moment& moment() const { return sight_.moment(); }
   const Picture& picture() const { return picture_; }
   const Recorder& recorder() const { return recorder_; }
+  const config::Config& config() const { return config_; }
   LoopStatistics statistics() const;
 
  private:
@@ -64,13 +59,13 @@ class Loop {
   config::Config config_;
   geometry::Camera camera_;
   tracking::Tracker tracker_;
+  Sight sight_;
   Recorder recorder_;
   Session session_;
   Modes modes_;
   Gestures gestures_;
   Metronome metronome_;
   Screen screen_;
-  Moment moment_;
   Picture picture_;
   bool exposure_held_ = false;
   LoopStatistics statistics_;

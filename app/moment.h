@@ -24,6 +24,7 @@ struct Moment {
   std::int64_t now_ns = 0;                  ///< Clock time of the tick
   hal::Frame frame;                         ///< newest picture; color is null before the first one
   bool fresh = false;                       ///< the picture came in this tick
+  double tracking_ms = 0.0;                 ///< time spent tracking it; 0 on a virtual clock
   tracking::TrackedFrame tracked;           ///< of `frame`
   std::vector<Eigen::Vector3d> map_points;  ///< in world, those seen in `frame`
   MapPoses map;

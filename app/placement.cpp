@@ -21,6 +21,10 @@ struct Candidate {
 
 }  // namespace
 
+Eigen::Vector2d reticle(const geometry::Camera& camera) {
+  return {0.5 * (camera.width() - 1), 0.5 * (camera.height() - 1)};
+}
+
 std::optional<Ray> ray_of_pixel(const geometry::Camera& camera,
                                 const geometry::Pose& world_from_camera,
                                 const Eigen::Vector2d& pixel) {

@@ -17,6 +17,9 @@ struct Ray {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< in world, unit length
 };
 
+/// The pixel in the middle of the picture.
+Eigen::Vector2d reticle(const geometry::Camera& camera);
+
 /// Ray of a pixel; none where the camera model has no undistorted point for it.
 std::optional<Ray> ray_of_pixel(const geometry::Camera& camera,
                                 const geometry::Pose& world_from_camera,

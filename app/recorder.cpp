@@ -136,24 +136,22 @@ void Recorder::follow_subject(const MapPoses& map, double tolerance) {
   }
 }
 
-void Recorder::set_points(const std::vector<tracking::MapPoint>& points) {
+void Recorder::finish(const tracking::Tracker& tracker) {
+  follow_map({tracker.map_revision(),
+              [&](tracking::KeyframeId id) { return tracker.world_from_keyframe(id); }},
+             0.0);
+  if (const auto problem = error()) {
+    throw config::InputError(*problem);
+  }
   if (!store_) {
     return;
   }
-  std::vector<Eigen::Vector3d> positions;
-  for (const tracking::MapPoint& point : points) {
-    positions.push_back(point.position);
+  std::vector<Eigen::Vector3d> points;
+  for (const tracking::MapPoint& point : tracker.points()) {
+    points.push_back(point.position);
   }
-  store_->set_points(std::move(positions));
-}
-
-void Recorder::flush() {
-  if (open_error_) {
-    throw config::InputError(*open_error_);
-  }
-  if (store_) {
-    store_->flush();
-  }
+  store_->set_points(std::move(points));
+  store_->flush();
 }
 
 std::optional<std::string> Recorder::error() const {

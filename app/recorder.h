@@ -44,11 +44,9 @@ class Recorder {
   /// Moves what the map has moved by more than `tolerance`, a share of the distance to the subject.
   void follow_map(const MapPoses& map, double tolerance);
 
-  /// Hands the map's points to the store.
-  void set_points(const std::vector<tracking::MapPoint>& points);
-
-  /// Waits for the disk; throws config::InputError if something could not be written.
-  void flush();
+  /// Brings everything to disk after the last correction of the map: poses, the map's points,
+  /// pictures. Throws config::InputError if something could not be written.
+  void finish(const tracking::Tracker& tracker);
 
   const lightfield::LightField& light_field() const { return light_field_; }
 

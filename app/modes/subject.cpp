@@ -1,16 +1,6 @@
 #include "app/modes/subject.h"
 
 namespace lumibox::app {
-namespace {
-
-/// Ray of the middle of the picture.
-std::optional<Ray> reticle_ray(const geometry::Camera& camera,
-                               const geometry::Pose& world_from_camera) {
-  const Eigen::Vector2d middle(0.5 * (camera.width() - 1), 0.5 * (camera.height() - 1));
-  return ray_of_pixel(camera, world_from_camera, middle);
-}
-
-}  // namespace
 
 SubjectMode::SubjectMode(Session& session, const geometry::Camera& camera)
     : session_(session), camera_(camera) {}
@@ -52,7 +42,7 @@ ModeId SubjectMode::update(const Moment& moment) {
   }
   const auto& world_from_camera = moment.tracked.world_from_camera;
   if (world_from_camera && !placed_) {
-    ray_ = reticle_ray(camera_, *world_from_camera);
+    ray_ = ray_of_pixel(camera_, *world_from_camera, reticle(camera_));
     if (ray_ && !aperture_) {
       const auto depth = depth_on_ray(*ray_, moment.map_points);
       first_depth_ = depth ? depth : first_depth_;

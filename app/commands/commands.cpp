@@ -1,0 +1,63 @@
+#include "app/commands/commands.h"
+
+#include <spdlog/spdlog.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "config/error.h"
+
+namespace lumibox::app {
+
+CLI::App* add_command(CLI::App& app, const char* name, const char* description, const char* example,
+                      config::Sources& sources) {
+  CLI::App* command = app.add_subcommand(name, description);
+  command->add_option("--config", sources.file, "configuration file (see lumibox.toml)")
+      ->type_name("FILE");
+  command
+      ->add_option("--set", sources.assignments, "one setting, e.g. --set capture.threshold_deg=3")
+      ->type_name("SECTION.KEY=VALUE")
+      ->allow_extra_args(false);
+  command->footer(std::string("Example:\n  ") + example);
+  return command;
+}
+
+config::Config load_config(const config::Sources& sources) {
+  config::Config config = config::load(sources);
+  spdlog::set_level(spdlog::level::from_str(config.log.level));
+  return config;
+}
+
+void refuse_used_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  if (std::filesystem::exists(folder, error) && !std::filesystem::is_empty(folder, error)) {
+    throw config::InputError(folder, "is not empty; nothing recorded is ever overwritten");
+  }
+}
+
+void write_json(const std::filesystem::path& file, const nlohmann::json& json) {
+  make_parent_folder(file);
+  std::ofstream stream(file);
+  stream << json.dump(2) << '\n';
+  stream.close();
+  if (!stream) {
+    throw config::InputError(file, "cannot be written");
+  }
+}
+
+void make_parent_folder(const std::filesystem::path& file) {
+  if (file.has_parent_path()) {
+    make_folder(file.parent_path());
+  }
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder)) {
+    throw config::InputError(
+        folder, "the folder cannot be made" + (error ? ": " + error.message() : std::string()));
+  }
+}
+
+}  // namespace lumibox::app

@@ -1,0 +1,122 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/commands/commands.h"
+#include "app/painter.h"
+#include "app/progress.h"
+#include "config/error.h"
+#include "hal/image_io.h"
+#include "lightfield/capture.h"
+#include "render/leave_one_out.h"
+
+namespace lumibox::app {
+namespace {
+
+struct EvaluateOptions {
+  config::Sources sources;
+  std::filesystem::path capture;
+  std::optional<std::filesystem::path> json;
+  std::optional<std::filesystem::path> pictures;
+  bool reference = false;
+};
+
+nlohmann::json to_json(const render::Quality& quality) {
+  return {{"psnr", quality.psnr},
+          {"ssim", quality.ssim},
+          {"psnr_subject", quality.psnr_subject},
+          {"ssim_subject", quality.ssim_subject}};
+}
+
+nlohmann::json to_json(const std::vector<render::MethodQuality>& methods) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const render::MethodQuality& method : methods) {
+    nlohmann::json row = to_json(method.mean);
+    row["method"] = method.method;
+    row["views"] = nlohmann::json::array();
+    for (const render::ViewQuality& view : method.views) {
+      nlohmann::json entry = to_json(view.quality);
+      entry["perspective"] = view.perspective_id;
+      entry["file"] = view.file;
+      row["views"].push_back(entry);
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+void print_table(const std::vector<render::MethodQuality>& methods) {
+  std::printf("%-12s %8s %8s %14s %14s\n", "method", "psnr", "ssim", "psnr_subject",
+              "ssim_subject");
+  for (const render::MethodQuality& method : methods) {
+    std::printf("%-12s %8.2f %8.3f %14.2f %14.3f\n", method.method.c_str(), method.mean.psnr,
+                method.mean.ssim, method.mean.psnr_subject, method.mean.ssim_subject);
+  }
+}
+
+const char* name_of(const render::Settings& settings) {
+  if (settings.k == 1) {
+    return "nearest";
+  }
+  return settings.aperture == render::Aperture::Small ? "plane-small" : "plane-wide";
+}
+
+void evaluate(const EvaluateOptions& options) {
+  const config::Config config = load_config(options.sources);
+  const lightfield::Capture capture = lightfield::load_capture(options.capture);
+  const auto& perspectives = capture.light_field.perspectives();
+  if (perspectives.size() < 2 || !capture.light_field.subject()) {
+    throw config::InputError(options.capture, "holds fewer than the two perspectives needed");
+  }
+  if (options.pictures) {
+    make_folder(*options.pictures);
+  }
+  Painter painter(options.reference ? Exactness::Exact : Exactness::Fast);
+  std::size_t current = 0;
+  const auto render_view = [&](const render::View& view,
+                               const std::vector<lightfield::Perspective>& others,
+                               const render::Settings& settings) {
+    hal::Image picture = painter.paint(view, others, settings);
+    if (options.pictures) {
+      const std::string name =
+          fmt::format("{:06}-{}.png", perspectives[current].id, name_of(settings));
+      hal::write_png(*options.pictures / name, picture);
+    }
+    return picture;
+  };
+  std::vector<render::MethodQuality> methods;
+  {
+    Progress progress("evaluating", static_cast<std::int64_t>(perspectives.size()));
+    methods = render::leave_one_out(perspectives, *capture.light_field.subject(), config.render,
+                                    render_view, [&](std::size_t view) {
+                                      current = view;
+                                      progress.show(static_cast<std::int64_t>(view));
+                                    });
+  }
+  print_table(methods);
+  if (options.json) {
+    write_json(*options.json, to_json(methods));
+  }
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app) {
+  auto options = std::make_shared<EvaluateOptions>();
+  CLI::App* command =
+      add_command(app, "evaluate", "How well each perspective can be rendered from all the others.",
+                  "lumibox evaluate walk_capture/ --json quality.json", options->sources);
+  command->add_option("CAPTURE", options->capture, "capture folder")->required();
+  command->add_option("--json", options->json, "one row per method, and the rows per view")
+      ->type_name("FILE");
+  command->add_option("--pictures", options->pictures, "folder for what was rendered")
+      ->type_name("DIR");
+  command->add_flag("--reference", options->reference, "the exact renderer on the CPU");
+  command->callback([options] { evaluate(*options); });
+}
+
+}  // namespace lumibox::app

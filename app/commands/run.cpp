@@ -1,0 +1,48 @@
+#include <csignal>
+#include <cstdio>
+
+#include "app/commands/commands.h"
+#include "app/loop.h"
+
+namespace lumibox::app {
+namespace {
+
+volatile std::sig_atomic_t stop_asked = 0;
+
+void ask_to_stop(int) {
+  stop_asked = 1;
+}
+
+struct RunOptions {
+  config::Sources sources;
+};
+
+void run(const RunOptions& options) {
+  const config::Config config = load_config(options.sources);
+  make_folder(config.capture.folder);
+  Devices devices = open_devices(config.devices);
+  Loop loop(devices, config, config.capture.folder, devices.lockstep ? kLockstep : kThreaded);
+  std::signal(SIGINT, ask_to_stop);
+  std::signal(SIGTERM, ask_to_stop);
+  loop.run([&] { return stop_asked == 0 && devices.camera->state() != hal::CameraState::Ended; });
+  loop.finish();
+  const LoopStatistics statistics = loop.statistics();
+  std::printf("%lld ticks, %lld late; %lld frames, %lld tracked; %zu perspectives\n",
+              static_cast<long long>(statistics.ticks),
+              static_cast<long long>(statistics.late_ticks),
+              static_cast<long long>(statistics.frames), static_cast<long long>(statistics.tracked),
+              loop.recorder().light_field().perspectives().size());
+}
+
+}  // namespace
+
+void add_run(CLI::App& app) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command = add_command(
+      app, "run", "The box itself: camera, buttons and display as the configuration names them.",
+      "lumibox run --set 'devices.camera=replay:walk/' --set 'devices.buttons=script:presses.txt'",
+      options->sources);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace lumibox::app

@@ -1,0 +1,225 @@
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/auto_capture.h"
+#include "app/commands/commands.h"
+#include "app/progress.h"
+#include "app/sight.h"
+#include "app/threading.h"
+#include "app/track_report.h"
+#include "app/trajectory.h"
+#include "config/error.h"
+#include "hal/replay/replay_camera.h"
+#include "hal/system_clock.h"
+
+namespace lumibox::app {
+namespace {
+
+struct TrackOptions {
+  config::Sources sources;
+  std::filesystem::path sequence;
+  std::filesystem::path out;
+  std::optional<std::filesystem::path> live;
+  std::optional<std::filesystem::path> json;
+  std::optional<std::filesystem::path> calibration;
+  std::optional<std::filesystem::path> capture;
+  std::optional<std::string> subject;
+  std::uint32_t seed = 0;
+  bool realtime = false;
+};
+
+/// A frame with a pose, as it was known then and as it can be corrected later.
+struct Tracked {
+  double timestamp_s = 0.0;
+  geometry::Pose world_from_camera;
+  tracking::KeyframeId keyframe = -1;
+  geometry::Pose keyframe_from_camera;
+};
+
+struct Result {
+  TrackReport report;
+  std::vector<Tracked> frames;
+};
+
+/// `U,V@FRAME`
+SubjectPixel parse_subject(const std::string& text) {
+  SubjectPixel subject;
+  long long frame = -1;
+  int read = 0;
+  const int count = std::sscanf(text.c_str(), "%lf,%lf@%lld%n", &subject.pixel.x(),
+                                &subject.pixel.y(), &frame, &read);
+  if (count != 3 || frame < 0 || !subject.pixel.allFinite() ||
+      static_cast<std::size_t>(read) != text.size()) {
+    throw CLI::ValidationError("--subject",
+                               "found " + text + "; expected U,V@FRAME, e.g. 320,240@45");
+  }
+  subject.frame = frame;
+  return subject;
+}
+
+/// Until the recording is over: look, note, let the capture see it too.
+Result play(Sight& sight, hal::Camera& camera, hal::Clock& clock, AutoCapture* capture,
+            Progress& progress) {
+  constexpr std::int64_t kPollNs = 1'000'000;
+  Result result;
+  while (true) {
+    const Moment& moment = sight.look();
+    if (!moment.fresh) {
+      if (camera.state() == hal::CameraState::Ended) {
+        return result;
+      }
+      clock.wait_until(clock.now_ns() + kPollNs);
+      continue;
+    }
+    result.report.add(moment);
+    if (moment.tracked.world_from_camera) {
+      result.frames.push_back({1e-9 * static_cast<double>(moment.frame.timestamp_ns),
+                               *moment.tracked.world_from_camera, moment.tracked.keyframe,
+                               moment.tracked.keyframe_from_camera});
+    }
+    if (capture != nullptr) {
+      capture->see(moment);
+    }
+    progress.show(result.report.frames());
+  }
+}
+
+std::vector<hal::StampedPose> live_trajectory(const Result& result) {
+  std::vector<hal::StampedPose> trajectory;
+  for (const Tracked& frame : result.frames) {
+    trajectory.push_back({frame.timestamp_s, frame.world_from_camera});
+  }
+  return trajectory;
+}
+
+/// The poses with all later corrections of the map.
+std::vector<hal::StampedPose> final_trajectory(const Result& result,
+                                               const tracking::Tracker& tracker) {
+  std::vector<hal::StampedPose> trajectory;
+  for (const Tracked& frame : result.frames) {
+    const auto world_from_keyframe = tracker.world_from_keyframe(frame.keyframe);
+    trajectory.push_back({frame.timestamp_s, world_from_keyframe
+                                                 ? *world_from_keyframe * frame.keyframe_from_camera
+                                                 : frame.world_from_camera});
+  }
+  return trajectory;
+}
+
+/// Adds the errors against the truth to the statistics and says them.
+void judge(const char* which, const std::vector<hal::StampedPose>& trajectory,
+           const std::vector<hal::StampedPose>& truth, nlohmann::json& json) {
+  const auto error = compare_trajectories(trajectory, truth);
+  if (!error) {
+    return;
+  }
+  json[std::string("ate_") + which] = error->rmse;
+  json[std::string("ate_") + which + "_percent"] = error->rmse_percent;
+  std::printf("%-5s error (RMSE after Sim(3) alignment, %d poses): %.5f, %.3f %% of the extent\n",
+              which, error->poses, error->rmse, error->rmse_percent);
+}
+
+void say(const TrackReport& report, const nlohmann::json& json) {
+  std::printf("%lld frames, %lld tracked", static_cast<long long>(report.frames()),
+              static_cast<long long>(report.tracked()));
+  if (const auto first = report.initialised_at_frame()) {
+    std::printf(" from frame %lld on", static_cast<long long>(*first));
+  }
+  std::printf("; %d keyframes, %d points; %.1f ms median, %.1f ms p95\n",
+              json["keyframes"].get<int>(), json["points"].get<int>(),
+              json["ms"]["median"].get<double>(), json["ms"]["p95"].get<double>());
+  for (const Loss& loss : report.losses()) {
+    std::printf("lost in frames %lld to %lld: %s\n", static_cast<long long>(loss.first_frame),
+                static_cast<long long>(loss.last_frame), name_of(loss.reason).c_str());
+  }
+}
+
+void track(const TrackOptions& options) {
+  const config::Config config = load_config(options.sources);
+  const auto subject = options.subject ? std::optional(parse_subject(*options.subject))
+                                       : std::optional<SubjectPixel>();
+  const hal::Sequence sequence = hal::open_sequence(options.sequence, options.calibration);
+  hal::SystemClock clock;
+  hal::ReplayCamera camera(sequence, clock,
+                           options.realtime ? hal::Pacing::Recorded : hal::Pacing::Lockstep);
+  const geometry::Camera model(sequence.profile);
+  const Threading threading = options.realtime ? kThreaded : kLockstep;
+  tracking::Tracker tracker(model, config.tracking, threading.mapping, options.seed);
+  Sight sight(camera, clock, tracker);
+  Recorder recorder(model, config.capture, threading.writing);
+  std::optional<AutoCapture> capture;
+  if (options.capture) {
+    refuse_used_folder(*options.capture);
+    capture.emplace(recorder, model, config.capture, *options.capture, subject);
+  }
+
+  camera.start();
+  Result result;
+  {
+    Progress progress("tracking", static_cast<std::int64_t>(sequence.entries.size()));
+    result = play(sight, camera, clock, capture ? &*capture : nullptr, progress);
+  }
+  tracker.finish();
+
+  const auto trajectory = final_trajectory(result, tracker);
+  make_parent_folder(options.out);
+  hal::write_tum_trajectory(options.out, trajectory);
+  if (options.live) {
+    make_parent_folder(*options.live);
+    hal::write_tum_trajectory(*options.live, live_trajectory(result));
+  }
+  nlohmann::json json = result.report.to_json(tracker.statistics());
+  say(result.report, json);
+  judge("live", live_trajectory(result), sequence.ground_truth, json);
+  judge("final", trajectory, sequence.ground_truth, json);
+  if (capture) {
+    recorder.finish(tracker);
+    json["perspectives"] = recorder.light_field().perspectives().size();
+    std::printf("%zu perspectives in %s\n", recorder.light_field().perspectives().size(),
+                options.capture->c_str());
+  }
+  if (options.json) {
+    write_json(*options.json, json);
+  }
+  if (result.frames.empty()) {
+    throw config::InputError(options.sequence, std::string("no frame could be tracked: ") +
+                                                   tracking::advice(result.report.last_reason()));
+  }
+}
+
+}  // namespace
+
+void add_track(CLI::App& app) {
+  auto options = std::make_shared<TrackOptions>();
+  CLI::App* command =
+      add_command(app, "track", "Track a recording; write its trajectory and, if asked, a capture.",
+                  "lumibox track walk/ --out walk.tum --json walk.json --capture walk_capture/",
+                  options->sources);
+  command->add_option("SEQ", options->sequence, "sequence folder, folder of images, or video")
+      ->required();
+  command->add_option("--out", options->out, "trajectory with the final corrections (TUM)")
+      ->type_name("TRAJ.tum")
+      ->required();
+  command->add_option("--live", options->live, "trajectory as known when each frame was shown")
+      ->type_name("LIVE.tum");
+  command->add_option("--json", options->json, "statistics")->type_name("STATS");
+  command->add_option("--seed", options->seed, "of the random sampling")->type_name("N");
+  command->add_option("--calib", options->calibration, "calibration in place of the sequence's own")
+      ->type_name("CALIB.txt");
+  command->add_flag("--realtime", options->realtime,
+                    "play at the recorded rate; frames that come too fast are dropped");
+  CLI::Option* capture =
+      command->add_option("--capture", options->capture, "record a light field into this folder")
+          ->type_name("DIR");
+  command
+      ->add_option(
+          "--subject", options->subject,
+          "where the subject is: pixel and frame (default: the middle, as soon as possible)")
+      ->type_name("U,V@FRAME")
+      ->needs(capture);
+  command->callback([options] { track(*options); });
+}
+
+}  // namespace lumibox::app

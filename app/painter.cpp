@@ -1,0 +1,35 @@
+#include "app/painter.h"
+
+#include "render/reference.h"
+
+namespace lumibox::app {
+
+Painter::~Painter() {
+  if (display_) {
+    display_->make_current();
+  }
+}
+
+hal::Image Painter::paint(const render::View& view,
+                          const std::vector<lightfield::Perspective>& perspectives,
+                          const render::Settings& settings) {
+  if (exactness_ == Exactness::Exact) {
+    return render::render_reference(view, perspectives, settings);
+  }
+  set_size(view.camera.width(), view.camera.height());
+  renderer_->draw(view, perspectives, settings, display_->framebuffer());
+  return display_->read_back();
+}
+
+void Painter::set_size(int width, int height) {
+  if (display_ && display_->width() == width && display_->height() == height) {
+    display_->make_current();
+    return;
+  }
+  renderer_.reset();
+  display_ = std::make_unique<hal::OffscreenDisplay>(width, height);
+  display_->make_current();
+  renderer_ = std::make_unique<render::Renderer>();
+}
+
+}  // namespace lumibox::app

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "hal/image.h"
+#include "hal/offscreen/offscreen_display.h"
+#include "lightfield/perspective.h"
+#include "render/renderer.h"
+#include "render/view.h"
+
+namespace lumibox::app {
+
+enum class Exactness {
+  Fast,  ///< the GL renderer, without a screen
+  Exact  ///< the reference on the CPU
+};
+
+/// Pictures of a light field for files.
+class Painter {
+ public:
+  explicit Painter(Exactness exactness) : exactness_(exactness) {}
+  ~Painter();
+  Painter(const Painter&) = delete;
+  Painter& operator=(const Painter&) = delete;
+
+  /// Three channels, size of view.camera.
+  hal::Image paint(const render::View& view,
+                   const std::vector<lightfield::Perspective>& perspectives,
+                   const render::Settings& settings);
+
+ private:
+  void set_size(int width, int height);
+
+  Exactness exactness_;
+  std::unique_ptr<hal::OffscreenDisplay> display_;
+  std::unique_ptr<render::Renderer> renderer_;  ///< lives in the display's context
+};
+
+}  // namespace lumibox::app

@@ -1,0 +1,30 @@
+#include "app/sight.h"
+
+#include <optional>
+#include <utility>
+
+namespace lumibox::app {
+
+Sight::Sight(hal::Camera& camera, const hal::Clock& clock, tracking::Tracker& tracker)
+    : camera_(camera), clock_(clock), tracker_(tracker) {
+  moment_.map.world_from_keyframe = [this](tracking::KeyframeId id) {
+    return tracker_.world_from_keyframe(id);
+  };
+}
+
+const Moment& Sight::look() {
+  std::optional<hal::Frame> frame = camera_.take_newest();
+  moment_.now_ns = clock_.now_ns();
+  moment_.fresh = frame.has_value();
+  if (frame) {
+    moment_.frame = std::move(*frame);
+    moment_.tracked =
+        tracker_.track(*moment_.frame.gray, moment_.frame.index, moment_.frame.timestamp_ns);
+    moment_.tracking_ms = 1e-6 * static_cast<double>(clock_.now_ns() - moment_.now_ns);
+    moment_.map_points = tracker_.visible_points();
+  }
+  moment_.map.revision = tracker_.map_revision();
+  return moment_;
+}
+
+}  // namespace lumibox::app

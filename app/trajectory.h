@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "geometry/pose.h"
+#include "hal/replay/sequence.h"
+
+namespace lumibox::app {
+
+/// How far a trajectory is from the truth.
+struct TrajectoryError {
+  int poses = 0;              ///< that have a true pose of the same time
+  double rmse = 0.0;          ///< of the positions, in the truth's units
+  double rmse_percent = 0.0;  ///< of the diagonal of the true positions' bounding box
+  geometry::Similarity truth_from_estimate;  ///< least squares over the positions
+};
+
+/// Compares positions after the best similarity (a monocular map has no scale of its own). Poses
+/// and truth, both by time, belong together when their times differ by less than `tolerance_s`.
+/// None with fewer than three pairs.
+std::optional<TrajectoryError> compare_trajectories(const std::vector<hal::StampedPose>& estimate,
+                                                    const std::vector<hal::StampedPose>& truth,
+                                                    double tolerance_s = 0.02);
+
+}  // namespace lumibox::app
