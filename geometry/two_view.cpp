@@ -1,5 +1,6 @@
 #include "geometry/two_view.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -120,6 +121,21 @@ void keep_contenders(std::vector<Candidate>* candidates) {
   std::erase_if(*candidates, [limit](const Candidate& c) { return c.cost > limit; });
 }
 
+/// Whether the flagged first bearings lie, to within noise, in one plane through the centre, as
+/// points on a line (or fewer than three points) do: they leave every model undetermined.
+bool on_one_line(std::span<const BearingPair> pairs, const std::vector<bool>& flags,
+                 double sigma_rad) {
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  double count = 0.0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (!flags[i]) continue;
+    moments += pairs[i].first * pairs[i].first.transpose();
+    count += 1.0;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(moments, Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues()[0] < 9.0 * sigma_rad * sigma_rad * count;
+}
+
 void adopt(Candidate&& winner, TwoViewResult* result) {
   result->second_from_first = winner.motion;
   result->inliers = std::move(winner.inliers);
@@ -153,7 +169,7 @@ TwoViewResult solve_two_view(std::span<const BearingPair> pairs, const TwoViewOp
   const ModelFit& moved = plane.criterion < general.criterion ? plane : general;
   const ModelFit& winner = turned.criterion <= moved.criterion ? turned : moved;
   result.planar = &winner == &plane;
-  if (winner.inlier_count < required) {
+  if (winner.inlier_count < required || on_one_line(pairs, winner.inliers, options.sigma_rad)) {
     result.outcome = TwoViewOutcome::NotEnoughInliers;
     return result;
   }

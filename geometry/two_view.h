@@ -14,7 +14,7 @@ namespace lumibox::geometry {
 enum class TwoViewOutcome {
   Ok,
   TooFewPoints,      ///< fewer pairs than min_inliers (or than the five that any model needs)
-  NotEnoughInliers,  ///< no model explains min_inliers pairs
+  NotEnoughInliers,  ///< no model explains min_inliers pairs that are not all on one line
   NoMotion,          ///< the pairs are equal to within noise: nothing moved
   RotationOnly,      ///< a pure rotation explains the pairs as well as any motion does
   LowParallax,       ///< there is a translation, but the points lie too far away to measure it
