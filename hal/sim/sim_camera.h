@@ -19,6 +19,8 @@ namespace lumibox::hal {
 struct SimCost {
   std::int64_t camera_rays = 0;     ///< from the lens into the scene
   std::int64_t secondary_rays = 0;  ///< shadow, reflected and refracted rays
+  std::int64_t poses = 0;           ///< places of the hand that were computed
+  std::int64_t world_updates = 0;   ///< times that moving objects were moved
   std::vector<std::string> stages;  ///< names of the image stages that ran, in order
 };
 

@@ -1,0 +1,232 @@
+#include "hal/sim/tracer.h"
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "hal/sim/light_bake.h"
+
+namespace lumibox::hal::sim {
+namespace {
+
+constexpr int kPacket = 8;
+
+/// A start off a surface, beyond the rounding of its coordinates, on the side `normal` points to.
+Eigen::Vector3f off_surface(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) {
+  return point + 2e-6f * std::max(1.0f, point.cwiseAbs().maxCoeff()) * 16.0f * normal;
+}
+
+/// Share of unpolarised light that a surface between media reflects (Fresnel); cosines of the
+/// angles to the normal on both sides, `ior` of the second medium relative to the first.
+float fresnel(float cos_in, float cos_out, float ior) {
+  const float parallel = (ior * cos_in - cos_out) / (ior * cos_in + cos_out);
+  const float perpendicular = (cos_in - ior * cos_out) / (cos_in + ior * cos_out);
+  return 0.5f * (parallel * parallel + perpendicular * perpendicular);
+}
+
+}  // namespace
+
+Tracer::Tracer(const World& world, const SceneSpec& spec, const geometry::Camera& camera)
+    : world_(world),
+      background_(spec.background),
+      reflection_depth_(spec.effects.reflection ? spec.effects.reflection->depth : 0),
+      refraction_depth_(spec.effects.refraction ? spec.effects.refraction->depth : 0),
+      width_(camera.width()),
+      pixel_spread_(static_cast<float>(2.0 / (camera.profile().fx + camera.profile().fy))) {
+  for (const LightSpec& light : spec.lights) {
+    if (light.shadows == Shadows::Traced) traced_lights_.push_back(light);
+  }
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  bearings_.reserve(static_cast<std::size_t>(camera.width()) *
+                    static_cast<std::size_t>(camera.height()));
+  for (int y = 0; y < camera.height(); ++y) {
+    for (int x = 0; x < camera.width(); ++x) {
+      const auto bearing = camera.unproject({x, y});
+      bearings_.push_back(bearing ? bearing->cast<float>() : Eigen::Vector2f(kNan, kNan));
+    }
+  }
+}
+
+void Tracer::trace_rows(const geometry::Pose& world_from_camera, int begin, int end,
+                        LinearImage& image) {
+  const Eigen::Matrix3f rotation = world_from_camera.matrix3().cast<float>();
+  Cone cone;
+  cone.origin = world_from_camera.translation.cast<float>();
+  cone.spread = pixel_spread_;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  alignas(32) RTCRayHit8 packet{};
+  alignas(32) std::array<int, kPacket> valid{};
+
+  for (int y = begin; y < end; ++y) {
+    const Eigen::Vector2f* bearings =
+        bearings_.data() + static_cast<std::ptrdiff_t>(y) * width_;
+    for (int x0 = 0; x0 < width_; x0 += kPacket) {
+      for (int i = 0; i < kPacket; ++i) {
+        const bool inside = x0 + i < width_ && !std::isnan(bearings[x0 + i].x());
+        valid[static_cast<std::size_t>(i)] = inside ? -1 : 0;
+        if (!inside) continue;
+        const Eigen::Vector3f direction = rotation * bearings[x0 + i].homogeneous();
+        packet.ray.org_x[i] = cone.origin.x();
+        packet.ray.org_y[i] = cone.origin.y();
+        packet.ray.org_z[i] = cone.origin.z();
+        packet.ray.dir_x[i] = direction.x();
+        packet.ray.dir_y[i] = direction.y();
+        packet.ray.dir_z[i] = direction.z();
+        packet.ray.tnear[i] = 0.0f;
+        packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
+        packet.ray.mask[i] = ~0u;
+        packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+        ++rays_.camera;
+      }
+      rtcIntersect8(valid.data(), world_.embree(), &context, &packet);
+      for (int i = 0; i < kPacket && x0 + i < width_; ++i) {
+        Color& pixel = image.row(y)[x0 + i];
+        if (valid[static_cast<std::size_t>(i)] == 0) {
+          pixel = Color::Zero();
+          continue;
+        }
+        RTCHit hit{};
+        hit.Ng_x = packet.hit.Ng_x[i];
+        hit.Ng_y = packet.hit.Ng_y[i];
+        hit.Ng_z = packet.hit.Ng_z[i];
+        hit.u = packet.hit.u[i];
+        hit.v = packet.hit.v[i];
+        hit.primID = packet.hit.primID[i];
+        hit.geomID = packet.hit.geomID[i];
+        cone.direction = {packet.ray.dir_x[i], packet.ray.dir_y[i], packet.ray.dir_z[i]};
+        pixel = shade(cone, hit, packet.ray.tfar[i]);
+      }
+    }
+  }
+}
+
+Color Tracer::radiance(const Cone& cone) {
+  ++rays_.secondary;
+  RTCRayHit query{};
+  query.ray.org_x = cone.origin.x();
+  query.ray.org_y = cone.origin.y();
+  query.ray.org_z = cone.origin.z();
+  query.ray.dir_x = cone.direction.x();
+  query.ray.dir_y = cone.direction.y();
+  query.ray.dir_z = cone.direction.z();
+  query.ray.tfar = std::numeric_limits<float>::infinity();
+  query.ray.mask = ~0u;
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(world_.embree(), &context, &query);
+  return shade(cone, query.hit, query.ray.tfar);
+}
+
+Color Tracer::shade(const Cone& cone, const RTCHit& hit, float distance) {
+  if (hit.geomID == RTC_INVALID_GEOMETRY_ID) return background_;
+  const Body& body = world_.body(hit.geomID);
+  if (!body.is_optical()) return matte(cone, hit, distance);
+
+  const Eigen::Vector3f point = cone.origin + distance * cone.direction;
+  const Eigen::Vector3f normal = world_.normal(hit, point);
+  const float width = cone.width + cone.spread * distance;
+  const float curvature = body.is_exact_sphere ? 1.0f / body.radius : 0.0f;
+  if (body.glass_ior > 0.0f) return through_glass(cone, body, point, normal, width, curvature);
+  const Color mirrored = body.mirror * reflected(cone, point, normal, width, curvature);
+  if (body.mirror == 1.0f) return mirrored;
+  return mirrored + (1.0f - body.mirror) * matte(cone, hit, distance);
+}
+
+Color Tracer::matte(const Cone& cone, const RTCHit& hit, float distance) {
+  const Body& body = world_.body(hit.geomID);
+  const auto& [ia, ib, ic] = body.triangles[hit.primID];
+  const SurfaceVertex& a = body.vertices[ia];
+  const SurfaceVertex& b = body.vertices[ib];
+  const SurfaceVertex& c = body.vertices[ic];
+  const float wa = 1.0f - hit.u - hit.v;
+  Color light = wa * a.light + hit.u * b.light + hit.v * c.light;
+  if (!traced_lights_.empty()) {
+    const Eigen::Vector3f point = cone.origin + distance * cone.direction;
+    light += traced_light(point, world_.normal(hit, point));
+  }
+  if (!body.texture) return light;
+
+  const Eigen::Vector2f uv = wa * a.uv + hit.u * b.uv + hit.v * c.uv;
+  // A slanted pixel is longer than wide on the surface; one round footprint of its area serves.
+  const Eigen::Vector3f geometric(hit.Ng_x, hit.Ng_y, hit.Ng_z);
+  const float cosine = std::abs(geometric.dot(cone.direction)) /
+                       std::sqrt(geometric.squaredNorm() * cone.direction.squaredNorm());
+  const float width = (cone.width + cone.spread * distance) / std::sqrt(std::max(cosine, 0.05f));
+  return light * body.texture->sample(uv.x(), uv.y(), width * body.tiles_per_metre[hit.primID]);
+}
+
+Color Tracer::traced_light(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) {
+  Color total = Color::Zero();
+  const Eigen::Vector3f origin = point + 1e-4f * std::max(1.0f, point.norm()) * normal;
+  for (const LightSpec& light : traced_lights_) {
+    const Incoming incoming = incoming_light(light, point);
+    const float cosine = normal.dot(incoming.towards_light);
+    if (cosine <= 0.0f) continue;
+    ++rays_.secondary;
+    RTCRay ray{};
+    ray.org_x = origin.x();
+    ray.org_y = origin.y();
+    ray.org_z = origin.z();
+    ray.dir_x = incoming.towards_light.x();
+    ray.dir_y = incoming.towards_light.y();
+    ray.dir_z = incoming.towards_light.z();
+    ray.tfar = incoming.distance;
+    ray.mask = ~0u;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(world_.embree(), &context, &ray);
+    if (ray.tfar >= 0.0f) total += incoming.color * cosine;
+  }
+  return total;
+}
+
+Color Tracer::reflected(const Cone& cone, const Eigen::Vector3f& point,
+                        const Eigen::Vector3f& normal, float width, float curvature) {
+  if (cone.surfaces >= reflection_depth_) return background_;
+  const Eigen::Vector3f direction = cone.direction.normalized();
+  const float cosine = direction.dot(normal);
+  const Eigen::Vector3f facing = cosine < 0.0f ? normal : Eigen::Vector3f(-normal);
+  Cone next;
+  next.origin = off_surface(point, facing);
+  next.direction = direction - 2.0f * cosine * normal;
+  next.width = width;
+  next.spread = cone.spread + 2.0f * curvature * width;
+  next.surfaces = cone.surfaces + 1;
+  return radiance(next);
+}
+
+Color Tracer::through_glass(const Cone& cone, const Body& body, const Eigen::Vector3f& point,
+                            const Eigen::Vector3f& normal, float width, float curvature) {
+  const Eigen::Vector3f direction = cone.direction.normalized();
+  const bool entering = direction.dot(normal) < 0.0f;
+  const Eigen::Vector3f facing = entering ? normal : Eigen::Vector3f(-normal);
+  const float ior = entering ? body.glass_ior : 1.0f / body.glass_ior;
+  const float cos_in = -direction.dot(facing);
+  const float sin2_out = (1.0f - cos_in * cos_in) / (ior * ior);  // Snell
+  if (cone.surfaces >= refraction_depth_) return background_;
+
+  Cone next;
+  next.width = width;
+  next.surfaces = cone.surfaces + 1;
+  if (sin2_out >= 1.0f) {  // total reflection
+    next.origin = off_surface(point, facing);
+    next.direction = direction + 2.0f * cos_in * facing;
+    next.spread = cone.spread + 2.0f * curvature * width;
+    return radiance(next);
+  }
+  const float cos_out = std::sqrt(1.0f - sin2_out);
+  next.origin = off_surface(point, -facing);
+  next.direction = direction / ior + (cos_in / ior - cos_out) * facing;
+  next.spread = cone.spread + std::abs(1.0f - 1.0f / ior) * curvature * width;
+  const Color refracted = radiance(next) * (entering ? body.glass_tint : Color::Ones().eval());
+  // What the inside of a surface reflects is faint and would double the rays at every bounce.
+  if (!entering || reflection_depth_ == 0) return refracted;
+  const float share = fresnel(cos_in, cos_out, ior);
+  return share * reflected(cone, point, normal, width, curvature) + (1.0f - share) * refracted;
+}
+
+}  // namespace lumibox::hal::sim

@@ -1,0 +1,182 @@
+#include "hal/sim/world.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+
+#include "config/error.h"
+#include "hal/sim/exact_sphere.h"
+#include "hal/sim/light_bake.h"
+#include "hal/sim/patterns.h"
+
+namespace lumibox::hal::sim {
+namespace {
+
+/// The mesh moved to its place in the world.
+void place(Mesh& mesh, const geometry::Pose& world_from_object) {
+  const Eigen::Matrix3f rotation = world_from_object.matrix3().cast<float>();
+  const Eigen::Vector3f translation = world_from_object.translation.cast<float>();
+  for (Eigen::Vector3f& p : mesh.positions) p = rotation * p + translation;
+  for (Eigen::Vector3f& n : mesh.normals) n = rotation * n;
+}
+
+/// An occluder is a plain ellipsoid that stands where its passage begins.
+ObjectSpec occluder_object(const OccluderSpec& spec) {
+  ObjectSpec object;
+  object.shape = Shape::Sphere;
+  object.size = spec.size;
+  object.world_from_object.translation = spec.from;
+  object.texture = spec.texture;
+  return object;
+}
+
+bool is_ball(const ObjectSpec& spec) {
+  return spec.shape == Shape::Sphere && spec.size.minCoeff() == spec.size.maxCoeff() &&
+         spec.displacement.amplitude_m == 0.0;
+}
+
+}  // namespace
+
+World::World(const SceneSpec& spec)
+    // One thread: renders must not depend on how many cores there are.
+    : device_(rtcNewDevice("threads=1,set_affinity=0"), rtcReleaseDevice),
+      scene_(nullptr, rtcReleaseScene) {
+  if (!device_) throw config::InputError("Embree: cannot open its device on this processor");
+  scene_.reset(rtcNewScene(device_.get()));
+  // Rays must not slip through the edge between two triangles.
+  RTCSceneFlags flags = RTC_SCENE_FLAG_ROBUST;
+  const EffectSpecs& effects = spec.effects;
+  if (!effects.moving_subjects.empty() || !effects.occluders.empty()) {
+    flags = flags | RTC_SCENE_FLAG_DYNAMIC;
+  }
+  rtcSetSceneFlags(scene_.get(), flags);
+
+  std::map<std::string, std::shared_ptr<const Motion>> motions;
+  for (const MovingSubjectSpec& subject : effects.moving_subjects) {
+    const auto motion = std::make_shared<Fidgeting>(subject);
+    for (const std::string& name : subject.objects) motions[name] = motion;
+  }
+  for (const ObjectSpec& object : spec.objects) {
+    const auto motion = motions.find(object.name);
+    add_object(object, motion != motions.end() ? motion->second : nullptr, spec.textures);
+  }
+  for (const OccluderSpec& occluder : effects.occluders) {
+    add_object(occluder_object(occluder), std::make_shared<Passage>(occluder), spec.textures);
+  }
+  rtcCommitScene(scene_.get());
+  bake(spec.lights);
+}
+
+void World::add_object(const ObjectSpec& spec, std::shared_ptr<const Motion> motion,
+                       const std::vector<TextureSpec>& textures) {
+  auto body = std::make_unique<Body>();
+  body->mirror = static_cast<float>(spec.mirror);
+  body->glass_ior = static_cast<float>(spec.glass_ior.value_or(0.0));
+  body->glass_tint = linear_from_srgb(spec.glass_tint);
+  Eigen::Vector2d tile_m = Eigen::Vector2d::Ones();
+  const auto texture =
+      std::find_if(textures.begin(), textures.end(),
+                   [&](const TextureSpec& candidate) { return candidate.name == spec.texture; });
+  if (texture != textures.end()) {
+    std::shared_ptr<const Texture>& painted = textures_[spec.texture];
+    if (!painted) painted = std::make_shared<Texture>(paint_texture(*texture));
+    body->texture = painted;
+    tile_m = texture->tile_m * spec.texture_scale;
+  }
+  const bool exact = is_ball(spec) && !motion && (spec.glass_ior || spec.mirror == 1.0);
+  bodies_.push_back(std::move(body));
+  if (exact) {
+    add_exact_sphere(spec);
+  } else {
+    add_mesh(spec, std::move(motion), tile_m);
+  }
+}
+
+void World::add_exact_sphere(const ObjectSpec& spec) {
+  Body& body = *bodies_.back();
+  body.is_exact_sphere = true;
+  body.center = spec.world_from_object.translation.cast<float>();
+  body.radius = 0.5f * static_cast<float>(spec.size.x());
+  const Owned<RTCGeometry> geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER),
+                                    rtcReleaseGeometry);
+  set_exact_sphere(geometry.get(), &body);
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometryByID(scene_.get(), geometry.get(), static_cast<unsigned>(bodies_.size() - 1));
+}
+
+void World::add_mesh(const ObjectSpec& spec, std::shared_ptr<const Motion> motion,
+                     const Eigen::Vector2d& tile_m) {
+  Mesh mesh = make_shape(spec);
+  place(mesh, spec.world_from_object);
+
+  Body& body = *bodies_.back();
+  const Eigen::Vector2f tiles_per_metre = tile_m.cwiseInverse().cast<float>();
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    body.vertices.push_back(
+        {mesh.uv[i].cwiseProduct(tiles_per_metre), mesh.normals[i], Color::Zero()});
+  }
+  body.triangles = mesh.triangles;
+  body.tiles_per_metre = texture_density(mesh);
+  for (float& density : body.tiles_per_metre) density *= tiles_per_metre.maxCoeff();
+
+  const auto id = static_cast<unsigned>(bodies_.size() - 1);
+  const Owned<RTCGeometry> geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE),
+                                    rtcReleaseGeometry);
+  if (motion) rtcSetGeometryBuildQuality(geometry.get(), RTC_BUILD_QUALITY_REFIT);
+  void* positions = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0,
+                                            RTC_FORMAT_FLOAT3, sizeof(Eigen::Vector3f),
+                                            mesh.positions.size());
+  std::copy(mesh.positions.begin(), mesh.positions.end(),
+            static_cast<Eigen::Vector3f*>(positions));
+  void* indices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0,
+                                          RTC_FORMAT_UINT3, sizeof(mesh.triangles.front()),
+                                          mesh.triangles.size());
+  std::copy(mesh.triangles.begin(), mesh.triangles.end(),
+            static_cast<std::array<std::uint32_t, 3>*>(indices));
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometryByID(scene_.get(), geometry.get(), id);
+  if (motion) movers_.push_back({id, mesh.positions, std::move(motion)});
+}
+
+void World::bake(const std::vector<LightSpec>& lights) {
+  for (unsigned id = 0; id < bodies_.size(); ++id) {
+    Body& body = *bodies_[id];
+    if (body.is_exact_sphere) continue;
+    const auto* positions = static_cast<const Eigen::Vector3f*>(rtcGetGeometryBufferData(
+        rtcGetGeometry(scene_.get(), id), RTC_BUFFER_TYPE_VERTEX, 0));
+    for (std::size_t i = 0; i < body.vertices.size(); ++i) {
+      SurfaceVertex& vertex = body.vertices[i];
+      vertex.light = baked_light(scene_.get(), lights, positions[i], vertex.normal);
+    }
+  }
+}
+
+Eigen::Vector3f World::normal(const RTCHit& hit, const Eigen::Vector3f& point) const {
+  const Body& body = *bodies_[hit.geomID];
+  if (body.is_exact_sphere) return (point - body.center).normalized();
+  const auto& [a, b, c] = body.triangles[hit.primID];
+  const Eigen::Vector3f at_rest = (1.0f - hit.u - hit.v) * body.vertices[a].normal +
+                                  hit.u * body.vertices[b].normal +
+                                  hit.v * body.vertices[c].normal;
+  return (body.world_from_rest * at_rest).normalized();
+}
+
+void World::move_to(double time_s) {
+  for (const Mover& mover : movers_) {
+    const geometry::Pose pose = mover.motion->world_from_rest(time_s);
+    const Eigen::Matrix3f rotation = pose.matrix3().cast<float>();
+    const Eigen::Vector3f translation = pose.translation.cast<float>();
+    bodies_[mover.geometry_id]->world_from_rest = rotation;
+    const RTCGeometry geometry = rtcGetGeometry(scene_.get(), mover.geometry_id);
+    auto* positions = static_cast<Eigen::Vector3f*>(
+        rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0));
+    for (std::size_t i = 0; i < mover.rest.size(); ++i) {
+      positions[i] = rotation * mover.rest[i] + translation;
+    }
+    rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+    rtcCommitGeometry(geometry);
+  }
+  if (moves()) rtcCommitScene(scene_.get());
+}
+
+}  // namespace lumibox::hal::sim
