@@ -1,7 +1,6 @@
 #include "render/renderer.h"
 
 #include <GLES3/gl3.h>
-#include <rapidcheck/gtest.h>
 
 #include <algorithm>
 #include <cmath>

@@ -219,12 +219,18 @@ TEST(PlanView, HardCasesGiveFiniteLayers) {
 TEST(PlanView, LeavesOutWhatCannotBeSeen) {
   for (const HardCase& hard : hard_cases()) {
     const std::size_t layers = plan_view(hard.view, hard.perspectives, hard.settings).size();
-    if (hard.name == "huge k") EXPECT_EQ(layers, kMaxLayers);
-    if (hard.name == "k larger than the set") EXPECT_EQ(layers, 3U);
+    if (hard.name == "huge k") {
+      EXPECT_EQ(layers, kMaxLayers);
+    }
+    if (hard.name == "k larger than the set") {
+      EXPECT_EQ(layers, 3U);
+    }
     for (const char* nothing :
          {"plane edge-on", "S behind a camera", "S behind the view", "view at S", "a camera at S",
           "no picture", "empty set", "a pose that is no number", "S that is no number"}) {
-      if (hard.name == nothing) EXPECT_EQ(layers, 0U) << hard.name;
+      if (hard.name == nothing) {
+        EXPECT_EQ(layers, 0U) << hard.name;
+      }
     }
   }
 }
