@@ -1,13 +1,15 @@
 #include "tracking/initialiser.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <opencv2/video/tracking.hpp>
 
+#include "geometry/triangulation.h"
 #include "geometry/two_view.h"
 #include "tracking/corners.h"
-#include "tracking/patch.h"
+#include "tracking/third_view.h"
 
 namespace lumibox::tracking {
 namespace {
@@ -24,9 +26,10 @@ cv::Mat as_mat(const hal::Image& image) {
 }  // namespace
 
 struct Initialiser::Track {
-  Eigen::Vector2d first;    // level 0
-  Eigen::Vector2d current;  // level 0
-  int level = 0;
+  Eigen::Vector2d first;              // level 0
+  Eigen::Vector2d current;            // level 0
+  int level = 0;                      // its corner was found on
+  std::vector<Eigen::Vector2d> path;  // in every frame since the first, level 0
 };
 
 Initialiser::Initialiser(const geometry::Camera& camera, const config::Tracking& options,
@@ -41,7 +44,7 @@ void Initialiser::restart(const std::shared_ptr<const Pyramid>& frame) {
   for (const Corner& corner :
        detect_corners(*frame, options_.fast_threshold, options_.max_features_per_keyframe)) {
     const Eigen::Vector2d pixel = from_level(corner.pixel, corner.level);
-    tracks_.push_back({pixel, pixel, corner.level});
+    tracks_.push_back({pixel, pixel, corner.level, {}});
   }
   tracks_at_start_ = tracks_.size();
 }
@@ -66,9 +69,10 @@ void Initialiser::follow(const std::shared_ptr<const Pyramid>& frame) {
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     const cv::Point2f round_trip = back[i] - before[i];
     if (found[i] == 0 || found_back[i] == 0 || round_trip.dot(round_trip) > 1.0F) continue;
-    Track t = tracks_[i];
+    Track t = std::move(tracks_[i]);
+    t.path.push_back(t.current);
     t.current = Eigen::Vector2d(static_cast<double>(after[i].x), static_cast<double>(after[i].y));
-    if (camera_.contains(t.current, 4.0)) kept.push_back(t);
+    if (camera_.contains(t.current, 4.0)) kept.push_back(std::move(t));
   }
   tracks_ = std::move(kept);
   last_ = frame;
@@ -104,13 +108,13 @@ Initialiser::Progress Initialiser::add(const std::shared_ptr<const Pyramid>& fra
 
 Initialiser::Progress Initialiser::solve(const std::shared_ptr<const Pyramid>& frame) {
   std::vector<geometry::BearingPair> pairs;
-  std::vector<Track> used;
+  std::vector<const Track*> used;
   for (const Track& t : tracks_) {
     const auto first = camera_.unproject(t.first);
     const auto second = camera_.unproject(t.current);
     if (!first || !second) continue;
     pairs.push_back({first->homogeneous().normalized(), second->homogeneous().normalized()});
-    used.push_back(t);
+    used.push_back(&t);
   }
   geometry::TwoViewOptions options;
   options.sigma_rad = kNoisePx / camera_.profile().fx;
@@ -120,25 +124,66 @@ Initialiser::Progress Initialiser::solve(const std::shared_ptr<const Pyramid>& f
   const geometry::TwoViewResult motion = geometry::solve_two_view(pairs, options);
   switch (motion.outcome) {
     case geometry::TwoViewOutcome::Ok:
-      break;
+      return make_map(frame, motion.second_from_first, motion.inliers, pairs, used);
     case geometry::TwoViewOutcome::TooFewPoints:
       return {std::nullopt, TrackingReason::TooLittleTexture};
     case geometry::TwoViewOutcome::RotationOnly:
       return {std::nullopt, TrackingReason::TurningOnly};
     case geometry::TwoViewOutcome::PlaneAmbiguous:
+      if (const auto decided = decide(motion, pairs, used)) {
+        return make_map(frame, *decided, motion.inliers, pairs, used);
+      }
       return {std::nullopt, TrackingReason::PlaneAmbiguous};
     case geometry::TwoViewOutcome::NotEnoughInliers:
     case geometry::TwoViewOutcome::NoMotion:
     case geometry::TwoViewOutcome::LowParallax:
       return {std::nullopt, TrackingReason::MoveSideways};
   }
+  return {std::nullopt, TrackingReason::MoveSideways};
+}
 
-  InitialMap map{first_, frame, motion.second_from_first, {}};
+std::optional<geometry::Pose> Initialiser::decide(const geometry::TwoViewResult& motion,
+                                                  std::span<const geometry::BearingPair> pairs,
+                                                  std::span<const Track* const> used) const {
+  // Three views in between, evenly: the nearer to the middle, the more the shapes differ there.
+  constexpr std::size_t kBetween = 3;
+  ManyViews views;
+  views.between.resize(kBetween);
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    const auto& path = used[i]->path;
+    if (!motion.inliers[i] || path.size() < 2 * kBetween) continue;
+    std::array<Eigen::Vector3d, kBetween> bearings;
+    bool seen = true;
+    for (std::size_t v = 0; v < kBetween && seen; ++v) {
+      const auto ray = camera_.unproject(path[(v + 1) * path.size() / (kBetween + 1)]);
+      seen = ray.has_value();
+      if (seen) bearings[v] = ray->homogeneous().normalized();
+    }
+    if (!seen) continue;
+    views.first.push_back(pairs[i].first);
+    views.second.push_back(pairs[i].second);
+    for (std::size_t v = 0; v < kBetween; ++v) views.between[v].push_back(bearings[v]);
+  }
+  const auto chosen =
+      decide_by_third_view(motion.candidates, views, 2.0 * kNoisePx / camera_.profile().fx);
+  if (!chosen) return std::nullopt;
+  return motion.candidates[*chosen];
+}
+
+Initialiser::Progress Initialiser::make_map(const std::shared_ptr<const Pyramid>& frame,
+                                            const geometry::Pose& second_from_first,
+                                            const std::vector<bool>& inliers,
+                                            std::span<const geometry::BearingPair> pairs,
+                                            std::span<const Track* const> used) const {
+  InitialMap map{first_, frame, second_from_first, {}};
   std::vector<double> depths;
   for (std::size_t i = 0; i < used.size(); ++i) {
-    if (!motion.inliers[i] || !motion.points[i]) continue;
-    map.points.push_back({*motion.points[i], used[i].first, used[i].current, used[i].level});
-    depths.push_back(motion.points[i]->z());
+    if (!inliers[i]) continue;
+    const auto point =
+        geometry::triangulate(geometry::Pose(), second_from_first, pairs[i].first, pairs[i].second);
+    if (!point) continue;
+    map.points.push_back({*point, used[i]->first, used[i]->current, used[i]->level});
+    depths.push_back(point->z());
   }
   if (map.points.size() < static_cast<std::size_t>(options_.init_min_inliers)) {
     return {std::nullopt, TrackingReason::MoveSideways};

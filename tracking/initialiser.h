@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "config/config.h"
 #include "geometry/camera.h"
 #include "geometry/pose.h"
+#include "geometry/two_view.h"
 #include "tracking/pyramid.h"
 #include "tracking/tracked_frame.h"
 
@@ -42,12 +44,20 @@ class Initialiser {
   Progress add(const std::shared_ptr<const Pyramid>& frame);
 
  private:
+  struct Track;  ///< a corner followed since the first frame
+
   void restart(const std::shared_ptr<const Pyramid>& frame);
   void follow(const std::shared_ptr<const Pyramid>& frame);
   double median_flow_px() const;
   Progress solve(const std::shared_ptr<const Pyramid>& frame);
+  std::optional<geometry::Pose> decide(const geometry::TwoViewResult& motion,
+                                       std::span<const geometry::BearingPair> pairs,
+                                       std::span<const Track* const> used) const;
+  Progress make_map(const std::shared_ptr<const Pyramid>& frame,
+                    const geometry::Pose& second_from_first, const std::vector<bool>& inliers,
+                    std::span<const geometry::BearingPair> pairs,
+                    std::span<const Track* const> used) const;
 
-  struct Track;
   geometry::Camera camera_;
   config::Tracking options_;
   std::uint32_t seed_;

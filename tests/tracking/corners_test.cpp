@@ -1,0 +1,35 @@
+#include "tracking/corners.h"
+
+#include <gtest/gtest.h>
+
+#include "tracking/textured_world.h"
+
+namespace lumibox::tracking {
+namespace {
+
+TEST(Corners, FindsACornerOfASquareAndNotItsEdges) {
+  hal::Image image(64, 64, 1);
+  for (int y = 24; y < 64; ++y) {
+    for (int x = 24; x < 64; ++x) *image.at(x, y) = 200;
+  }
+  const auto corners = detect_corners(Pyramid(image, 1), 10, 100);
+  ASSERT_EQ(corners.size(), 1U);
+  EXPECT_LT((corners[0].pixel - Eigen::Vector2d(24, 24)).norm(), 2.0);
+}
+
+TEST(Corners, CoverThePictureAndKeepTheLimit) {
+  const auto camera = testing::small_camera();
+  const Pyramid pyramid(testing::render_wedge(camera, geometry::Pose()), 4);
+  const auto all = detect_corners(pyramid, 10, 5000);
+  EXPECT_GT(all.size(), 150U);
+  const auto few = detect_corners(pyramid, 10, 50);
+  ASSERT_EQ(few.size(), 50U);
+  for (std::size_t i = 1; i < few.size(); ++i) EXPECT_GE(few[i - 1].score, few[i].score);
+}
+
+TEST(Corners, NoneInAFlatPicture) {
+  EXPECT_TRUE(detect_corners(Pyramid(hal::Image(64, 64, 1), 3), 10, 100).empty());
+}
+
+}  // namespace
+}  // namespace lumibox::tracking

@@ -1,0 +1,76 @@
+#include "tracking/pose_estimator.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "geometry/rotation.h"
+
+namespace lumibox::tracking {
+namespace {
+
+struct Scene {
+  geometry::Camera camera;
+  geometry::Pose camera_from_world;
+  std::vector<Measurement> measurements;
+};
+
+Scene make_scene(double noise_px, double outlier_share, int count) {
+  Scene scene;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  std::normal_distribution<double> gauss(0.0, 1.0);
+  geometry::Vector6d twist;
+  twist << 0.1, -0.05, 0.2, 0.1, 0.2, -0.1;
+  scene.camera_from_world = geometry::exp_se3(twist);
+  while (static_cast<int>(scene.measurements.size()) < count) {
+    Measurement m;
+    m.position = Eigen::Vector3d(2.0 * unit(random), 1.5 * unit(random), 3.0 + unit(random));
+    const auto pixel = scene.camera.project(scene.camera_from_world * m.position);
+    if (!pixel || !scene.camera.contains(*pixel)) continue;
+    m.pixel = *pixel + noise_px * Eigen::Vector2d(gauss(random), gauss(random));
+    if (unit(random) < 2.0 * outlier_share - 1.0) {
+      m.pixel += 60.0 * Eigen::Vector2d(unit(random), unit(random));
+    }
+    scene.measurements.push_back(m);
+  }
+  return scene;
+}
+
+geometry::Vector6d error_of(const Scene& scene, const geometry::Pose& estimate) {
+  return geometry::log_se3(estimate * scene.camera_from_world.inverse());
+}
+
+TEST(PoseEstimator, ExactMeasurementsGiveTheExactPose) {
+  Scene scene = make_scene(0.0, 0.0, 100);
+  const auto estimate = estimate_pose(scene.camera, scene.measurements, geometry::Pose(), 20);
+  EXPECT_LT(error_of(scene, estimate.camera_from_world).norm(), 1e-9);
+  EXPECT_EQ(estimate.inliers, 100);
+}
+
+// 200 points with 0.5 px noise and f = 540: one standard deviation of the pose is about 1e-4.
+TEST(PoseEstimator, ThirtyPercentOutliersDoNotMatter) {
+  Scene scene = make_scene(0.5, 0.3, 200);
+  const geometry::Pose start =
+      geometry::exp_se3(geometry::Vector6d::Constant(0.01)) * scene.camera_from_world;
+  const auto estimate = estimate_pose(scene.camera, scene.measurements, start, 20);
+  EXPECT_LT(error_of(scene, estimate.camera_from_world).norm(), 1e-3);
+  EXPECT_GT(estimate.inliers, 125);
+  EXPECT_LT(estimate.inliers, 160);
+}
+
+TEST(PoseEstimator, NothingMeasuredKeepsTheStart) {
+  std::vector<Measurement> none;
+  const auto estimate = estimate_pose(geometry::Camera(), none, geometry::Pose(), 10);
+  EXPECT_EQ(estimate.inliers, 0);
+  EXPECT_TRUE(estimate.camera_from_world.translation.isZero());
+}
+
+TEST(PoseEstimator, PointsBehindTheCameraAreOutliers) {
+  std::vector<Measurement> behind(10);
+  for (auto& m : behind) m.position = Eigen::Vector3d(0.0, 0.0, -1.0);
+  EXPECT_EQ(estimate_pose(geometry::Camera(), behind, geometry::Pose(), 10).inliers, 0);
+}
+
+}  // namespace
+}  // namespace lumibox::tracking

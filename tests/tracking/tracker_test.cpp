@@ -1,0 +1,149 @@
+#include "tracking/tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "geometry/rotation.h"
+#include "tracking/textured_world.h"
+
+namespace lumibox::tracking {
+namespace {
+
+constexpr std::int64_t kPeriod = 33'333'333;
+
+std::vector<hal::Image> walk_sideways(int frames, double step) {
+  std::vector<hal::Image> images;
+  for (int i = 0; i < frames; ++i) {
+    const geometry::Pose pose(geometry::exp_so3(Eigen::Vector3d(0.0, -0.004 * i, 0.0)),
+                              Eigen::Vector3d(step * i, 0.1 * step * i, 0.0));
+    images.push_back(testing::render_wedge(testing::small_camera(), pose));
+  }
+  return images;
+}
+
+/// Rendered once for all tests of this file.
+const std::vector<hal::Image>& walk() {
+  static const std::vector<hal::Image> images = walk_sideways(24, 0.015);
+  return images;
+}
+
+std::vector<TrackedFrame> run(Tracker& tracker, const std::vector<hal::Image>& images) {
+  std::vector<TrackedFrame> frames;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const auto index = static_cast<std::int64_t>(i);
+    frames.push_back(tracker.track(images[i], index, index * kPeriod));
+  }
+  return frames;
+}
+
+config::Tracking options() {
+  config::Tracking o;
+  o.pyramid_levels = 3;
+  return o;
+}
+
+TEST(Tracker, StartsByItselfAndFollowsAStraightWalk) {
+  Tracker tracker(testing::small_camera(), options(), Mapping::Lockstep, 1);
+  const auto frames = run(tracker, walk());
+  EXPECT_EQ(frames.front().state, TrackingState::Initialising);
+  ASSERT_EQ(frames.back().state, TrackingState::Good);
+  // Centres lie on one line at equal steps: compare with the line through the first and the last.
+  std::vector<Eigen::Vector3d> centers;
+  for (const auto& f : frames) {
+    if (f.world_from_camera) centers.push_back(f.world_from_camera->translation);
+  }
+  ASSERT_GT(centers.size(), 8U);
+  const Eigen::Vector3d length = centers.back() - centers.front();
+  for (std::size_t i = 0; i < centers.size(); ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(centers.size() - 1);
+    EXPECT_LT((centers[i] - centers.front() - share * length).norm(), 0.05 * length.norm()) << i;
+  }
+}
+
+TEST(Tracker, TwoLockstepRunsAreIdenticalToTheBit) {
+  Tracker a(testing::small_camera(), options(), Mapping::Lockstep, 1);
+  Tracker b(testing::small_camera(), options(), Mapping::Lockstep, 1);
+  const auto first = run(a, walk());
+  const auto second = run(b, walk());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    ASSERT_EQ(first[i].world_from_camera.has_value(), second[i].world_from_camera.has_value());
+    if (!first[i].world_from_camera) continue;
+    EXPECT_EQ(first[i].world_from_camera->translation, second[i].world_from_camera->translation);
+    EXPECT_EQ(first[i].world_from_camera->rotation.coeffs(),
+              second[i].world_from_camera->rotation.coeffs());
+  }
+}
+
+TEST(Tracker, AThreadedMapperArrivesAtAMapToo) {
+  Tracker tracker(testing::small_camera(), options(), Mapping::Threaded, 1);
+  const auto frames = run(tracker, walk());
+  tracker.finish();
+  EXPECT_EQ(frames.back().state, TrackingState::Good);
+  EXPECT_GE(tracker.statistics().keyframes, 2);
+  EXPECT_TRUE(tracker.world_from_keyframe(frames.back().keyframe).has_value());
+}
+
+TEST(Tracker, AStillCameraIsToldToMove) {
+  Tracker tracker(testing::small_camera(), options(), Mapping::Lockstep, 1);
+  const std::vector<hal::Image> still(6, walk().front());
+  for (const auto& f : run(tracker, still)) {
+    EXPECT_EQ(f.state, TrackingState::Initialising);
+    EXPECT_EQ(f.reason, TrackingReason::MoveSideways);
+    EXPECT_FALSE(f.world_from_camera);
+  }
+}
+
+TEST(Tracker, TurningOnlyMakesNoMap) {
+  std::vector<hal::Image> images;
+  for (int i = 0; i < 12; ++i) {
+    const geometry::Pose pose(geometry::exp_so3(Eigen::Vector3d(0.0, 0.012 * i, 0.0)),
+                              Eigen::Vector3d::Zero());
+    images.push_back(testing::render_wedge(testing::small_camera(), pose));
+  }
+  Tracker tracker(testing::small_camera(), options(), Mapping::Lockstep, 1);
+  const auto frames = run(tracker, images);
+  for (const auto& f : frames) EXPECT_EQ(f.state, TrackingState::Initialising);
+  EXPECT_EQ(frames.back().reason, TrackingReason::TurningOnly);
+}
+
+TEST(Tracker, ABlankPictureHasTooLittleTexture) {
+  Tracker tracker(testing::small_camera(), options(), Mapping::Lockstep, 1);
+  const std::vector<hal::Image> blank(3, hal::Image(320, 240, 1));
+  for (const auto& f : run(tracker, blank)) {
+    EXPECT_EQ(f.reason, TrackingReason::TooLittleTexture);
+  }
+}
+
+TEST(Tracker, LosesACoveredLensAndComesBack) {
+  std::vector<hal::Image> images = walk();
+  images.insert(images.end(), 8, hal::Image(320, 240, 1));
+  const std::size_t uncovered = images.size();
+  images.push_back(walk()[22]);
+  images.push_back(walk()[23]);
+  Tracker tracker(testing::small_camera(), options(), Mapping::Lockstep, 1);
+  const auto frames = run(tracker, images);
+  EXPECT_EQ(frames[uncovered - 1].state, TrackingState::Lost);
+  EXPECT_EQ(frames[uncovered - 1].reason, TrackingReason::TooDarkOrBlurred);
+  EXPECT_FALSE(frames[uncovered - 1].world_from_camera);
+  ASSERT_EQ(frames.back().state, TrackingState::Good);
+  EXPECT_EQ(tracker.statistics().relocalisations, 1);
+  EXPECT_LT(
+      (frames.back().world_from_camera->translation - frames[23].world_from_camera->translation)
+          .norm(),
+      0.005);
+}
+
+TEST(Tracker, EveryReasonHasItsAdvice) {
+  EXPECT_STREQ(advice(TrackingReason::None), "");
+  for (const auto reason :
+       {TrackingReason::TooLittleTexture, TrackingReason::MoveSideways, TrackingReason::TurningOnly,
+        TrackingReason::PlaneAmbiguous, TrackingReason::TooDarkOrBlurred,
+        TrackingReason::TooFewPointsFound, TrackingReason::Relocalising}) {
+    EXPECT_STRNE(advice(reason), "");
+  }
+}
+
+}  // namespace
+}  // namespace lumibox::tracking
