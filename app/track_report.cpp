@@ -46,7 +46,7 @@ nlohmann::json TrackReport::to_json(const tracking::TrackerStatistics& statistic
   json["frames"] = frames_;
   json["tracked"] = tracked_;
   json["lost"] = lost_;
-  json["initialised_at_frame"] = -1;
+  json["initialised_at_frame"] = nullptr;
   if (initialised_at_frame_) {
     json["initialised_at_frame"] = *initialised_at_frame_;
   }

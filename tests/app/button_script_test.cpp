@@ -1,0 +1,61 @@
+#include "app/button_script.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/input_error.h"
+#include "support/temp_dir.h"
+
+namespace lumibox::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(ButtonScript, ReadsPressesAndComments) {
+  const testing::TempDir dir;
+  const auto file =
+      dir.write("presses.txt", "# what the thumb does\n\n1.5 main\n2 wipe long # oh\n");
+  const auto events = read_button_script(file);
+  Gestures gestures(0.6);
+  std::vector<Gesture> told;
+  for (const auto& event : events) {
+    for (const Gesture& gesture : gestures.update({event}, event.timestamp_ns)) {
+      told.push_back(gesture);
+    }
+  }
+  EXPECT_EQ(events.front().timestamp_ns, 1'500'000'000);
+  EXPECT_EQ(told, (std::vector<Gesture>{{hal::Button::Main, Press::Short},
+                                        {hal::Button::Wipe, Press::Long}}));
+}
+
+struct BadScript {
+  const char* content;
+  const char* complaint;
+};
+
+class BadButtonScript : public ::testing::TestWithParam<BadScript> {};
+
+TEST_P(BadButtonScript, IsRefusedWithFileAndLine) {
+  const testing::TempDir dir;
+  const auto file = dir.write("presses.txt", GetParam().content);
+  EXPECT_THAT(testing::message_of([&] { read_button_script(file); }),
+              HasSubstr(file.string() + GetParam().complaint));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadButtonScript,
+    ::testing::Values(BadScript{"1 main\nsoon main\n", ":2: found \"soon main\""},
+                      BadScript{"1 fire\n", ":1: found \"1 fire\""},
+                      BadScript{"1 main short\n", ":1: found \"1 main short\""},
+                      BadScript{"1 main long long\n", ":1: found"},
+                      BadScript{"nan main\n", ":1: found"}, BadScript{"-1 main\n", ":1: found"},
+                      BadScript{"1\n", ":1: found"},
+                      BadScript{"2 main\n1 main\n", ":2: the time goes back"}));
+
+TEST(ButtonScript, NamesAMissingFile) {
+  EXPECT_THAT(testing::message_of([] { read_button_script("/nowhere/presses.txt"); }),
+              HasSubstr("/nowhere/presses.txt: cannot be opened"));
+}
+
+}  // namespace
+}  // namespace lumibox::app

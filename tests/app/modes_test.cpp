@@ -1,0 +1,332 @@
+#include "app/modes/modes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <numbers>
+
+#include "app/moments.h"
+#include "support/temp_dir.h"
+
+namespace lumibox::app {
+namespace {
+
+using hal::Button;
+using testing::around_subject;
+using ::testing::HasSubstr;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr Gesture kMain{Button::Main, Press::Short};
+constexpr Gesture kMainLong{Button::Main, Press::Long};
+constexpr Gesture kReview{Button::Review, Press::Short};
+constexpr Gesture kPlus{Button::Plus, Press::Short};
+constexpr Gesture kPlusLong{Button::Plus, Press::Long};
+constexpr Gesture kMinus{Button::Minus, Press::Short};
+constexpr Gesture kWipe{Button::Wipe, Press::Short};
+constexpr Gesture kWipeLong{Button::Wipe, Press::Long};
+
+/// A box in the hand of the test.
+struct Box {
+  testing::TempDir dir;
+  testing::World world;
+  config::Config config;
+  Recorder recorder{testing::small_camera(), config.capture, lightfield::Writing::Inline};
+  Session session{config, dir.path(), recorder, config.capture.threshold_deg* kDegree};
+  Modes modes{session, testing::small_camera()};
+
+  /// One tick as the loop has it, at an angle around the subject.
+  Decision tick(const std::vector<Gesture>& gestures = {}, double angle = 0.0) {
+    return tick_with(gestures, world.see_from(around_subject(angle)));
+  }
+  Decision tick_with(const std::vector<Gesture>& gestures, const Moment& moment) {
+    recorder.follow_map(moment.map, config.capture.moved_share);
+    const Decision decision = modes.decide(gestures, moment);
+    if (decision.record) {
+      recorder.record(moment);
+    }
+    picture = modes.draw(moment);
+    return decision;
+  }
+  void go_to_capture() {
+    tick();
+    tick({kMain});
+    tick({kMain});
+  }
+  /// From the subject's side to side, recording.
+  void walk() {
+    for (int i = -20; i <= 20; ++i) {
+      tick({}, i * 1.5 * kDegree);
+    }
+  }
+  std::size_t views() const { return recorder.light_field().perspectives().size(); }
+
+  Picture picture;
+};
+
+TEST(Acquire, WaitsWithAdviceAndGoesOnByItself) {
+  Box box;
+  Moment moment = box.world.see_nothing(tracking::TrackingReason::MoveSideways);
+  moment.tracked.state = tracking::TrackingState::Initialising;
+  box.tick_with({kMain, kReview, kPlus, kWipe, kMainLong}, moment);
+  EXPECT_EQ(box.modes.current(), ModeId::Acquire);
+  EXPECT_EQ(box.picture.advice, tracking::advice(tracking::TrackingReason::MoveSideways));
+  box.tick();
+  EXPECT_EQ(box.modes.current(), ModeId::Subject);
+}
+
+TEST(Subject, SphereFollowsTheReticleUntilItIsPlaced) {
+  Box box;
+  box.tick();
+  box.tick({}, 0.3);
+  ASSERT_TRUE(box.picture.coverage);
+  EXPECT_TRUE(box.picture.reticle);
+  EXPECT_TRUE(box.picture.coverage->sphere.center.isApprox(Eigen::Vector3d::UnitZ(), 1e-2));
+  box.tick_with({}, box.world.see_from({Eigen::Quaterniond::Identity(), {1.0, 0.0, 0.0}}));
+  EXPECT_NEAR(box.picture.coverage->sphere.center.x(), 1.0, 1e-2);
+  box.tick({kMain});
+  EXPECT_FALSE(box.picture.reticle);
+  const Eigen::Vector3d placed = box.picture.coverage->sphere.center;
+  box.tick({}, 0.5);
+  EXPECT_EQ(box.picture.coverage->sphere.center, placed);
+}
+
+TEST(Subject, PlusAndMinusSlideTheSphereAlongTheRayFixedInTheWorld) {
+  Box box;
+  box.tick();
+  const Eigen::Vector3d first = box.picture.coverage->sphere.center;
+  box.tick({kPlus});
+  const Eigen::Vector3d farther = box.picture.coverage->sphere.center;
+  EXPECT_GT(farther.z(), first.z());
+  EXPECT_NEAR(farther.x(), first.x(), 1e-9);
+  box.tick({kPlusLong}, 0.4);
+  EXPECT_GT(box.picture.coverage->sphere.center.z(), farther.z());
+  EXPECT_NEAR(box.picture.coverage->sphere.center.x(), first.x(), 1e-9);
+  box.tick({kMinus, kMinus, kMinus, kMinus, kMinus, kMinus});
+  EXPECT_TRUE(box.picture.coverage->sphere.center.isApprox(first, 1e-9));
+}
+
+TEST(Subject, WipeTakesThePlacementBack) {
+  Box box;
+  box.tick();
+  box.tick({kMain});
+  box.tick({kWipe});
+  EXPECT_TRUE(box.picture.reticle);
+  EXPECT_EQ(box.modes.current(), ModeId::Subject);
+}
+
+TEST(Subject, AugmentedApertureCollectsAFewPicturesAndPutsTheSphereAtItsFocus) {
+  Box box;
+  box.tick();
+  box.tick({kReview});
+  for (int i = 0; i < 100; ++i) {
+    box.tick({}, 3.0 * kDegree * std::sin(0.2 * i));
+  }
+  ASSERT_TRUE(box.picture.light_field);
+  const auto& fused = *box.picture.light_field;
+  EXPECT_GT(fused.perspectives.size(), 5U);
+  EXPECT_LE(fused.perspectives.size(), static_cast<std::size_t>(box.config.aperture.frames) + 1U);
+  EXPECT_EQ(fused.settings.aperture, render::Aperture::Wide);
+  EXPECT_EQ(fused.settings.exponent, 0.0);
+  EXPECT_GE(fused.settings.k, static_cast<int>(fused.perspectives.size()));
+  EXPECT_EQ(box.views(), 0U) << "those pictures are not part of the light field";
+
+  box.tick({kPlus, kPlus, kPlus});
+  const Eigen::Vector3d focus = box.picture.light_field->settings.focus;
+  EXPECT_GT(focus.z(), fused.settings.focus.z());
+  box.tick({kMain});
+  ASSERT_TRUE(box.picture.coverage);
+  EXPECT_FALSE(box.picture.light_field);
+  EXPECT_TRUE(box.picture.coverage->sphere.center.isApprox(focus, 1e-9));
+  box.tick({kMain});
+  EXPECT_EQ(box.modes.current(), ModeId::Capture);
+  EXPECT_TRUE(box.recorder.light_field().subject()->center.isApprox(focus, 1e-9));
+}
+
+TEST(Subject, WithoutAnyPointsThereIsNoSphereAndMainDoesNothing) {
+  Box box;
+  Moment moment = box.world.see_from({});
+  moment.map_points.clear();
+  box.tick_with({}, moment);
+  box.tick_with({kMain, kMain, kReview, kMain, kMain}, moment);
+  EXPECT_EQ(box.modes.current(), ModeId::Subject);
+  EXPECT_FALSE(box.picture.coverage);
+}
+
+TEST(Capture, RecordsOnTheWayByItselfAndOnlyWhenTheGateAccepts) {
+  Box box;
+  box.go_to_capture();
+  box.walk();
+  EXPECT_EQ(box.modes.current(), ModeId::Capture);
+  EXPECT_GT(box.views(), 10U);
+  const std::size_t first = box.views();
+  box.walk();
+  EXPECT_EQ(box.views(), first) << "the same way again has nothing new";
+  EXPECT_EQ(box.picture.coverage->recorded.size(), first);
+  EXPECT_TRUE(box.tick().hold_exposure);
+}
+
+TEST(Capture, SmallerThresholdRecordsMore) {
+  Box box;
+  box.go_to_capture();
+  box.walk();
+  const std::size_t first = box.views();
+  const double before = box.session.threshold;
+  box.tick({kMinus});
+  EXPECT_NEAR(box.session.threshold, before / box.config.capture.threshold_step, 1e-12);
+  box.tick({{Button::Minus, Press::Long}});
+  box.walk();
+  EXPECT_GT(box.views(), first);
+  for (int i = 0; i < 100; ++i) {
+    box.tick({kPlusLong});
+  }
+  EXPECT_NEAR(box.session.threshold, box.config.capture.threshold_max_deg * kDegree, 1e-12);
+}
+
+TEST(Capture, MainPausesAndWipePausesToo) {
+  Box box;
+  box.go_to_capture();
+  box.tick({kMain});
+  const std::size_t paused = box.views();
+  box.walk();
+  EXPECT_EQ(box.views(), paused);
+  EXPECT_THAT(box.picture.title, HasSubstr("paused"));
+  box.tick({kMain});
+  box.walk();
+  EXPECT_GT(box.views(), paused);
+  const std::size_t recorded = box.views();
+  box.tick({kWipe});
+  box.tick();
+  EXPECT_EQ(box.views(), recorded - 1) << "and the same view is not taken again at once";
+  box.tick({kWipeLong});
+  EXPECT_EQ(box.views(), recorded);
+}
+
+TEST(Capture, LongMainIsForTheNextSubjectAndNothingRecordedIsLost) {
+  Box box;
+  box.go_to_capture();
+  box.walk();
+  const std::size_t recorded = box.views();
+  box.tick({kMainLong});
+  EXPECT_EQ(box.modes.current(), ModeId::Subject);
+  box.tick({kWipe});
+  EXPECT_EQ(box.modes.current(), ModeId::Capture) << "changed one's mind";
+  EXPECT_EQ(box.views(), recorded);
+  box.tick({kMainLong});
+  box.tick({kMain});
+  box.tick({kMain}, 0.1);
+  EXPECT_EQ(box.modes.current(), ModeId::Capture);
+  EXPECT_LE(box.views(), 1U);
+  EXPECT_TRUE(std::filesystem::exists(box.dir / "capture-0001" / "transforms.json"));
+}
+
+TEST(Capture, LossIsSaidAndNothingIsRecorded) {
+  Box box;
+  box.go_to_capture();
+  const std::size_t recorded = box.views();
+  box.tick_with({kWipe}, box.world.see_nothing(tracking::TrackingReason::Relocalising));
+  EXPECT_EQ(box.views(), recorded);
+  EXPECT_EQ(box.picture.advice, tracking::advice(tracking::TrackingReason::Relocalising));
+  EXPECT_FALSE(box.picture.coverage);
+}
+
+TEST(Review, IsThereInTheSameTickAndShowsAllThatIsRecorded) {
+  Box box;
+  box.go_to_capture();
+  box.walk();
+  box.tick({kReview}, 0.1);
+  ASSERT_TRUE(box.picture.light_field);
+  EXPECT_EQ(box.picture.light_field->perspectives.size(), box.views());
+  EXPECT_EQ(box.picture.light_field->settings.aperture, render::Aperture::Small);
+  EXPECT_TRUE(box.picture.light_field->settings.focus.isApprox(
+      box.recorder.light_field().subject()->center, 1e-9));
+  EXPECT_EQ(box.picture.world_from_view->translation, around_subject(0.1).translation);
+  const std::size_t recorded = box.views();
+  box.tick({}, 2.0);
+  EXPECT_EQ(box.views(), recorded) << "review does not record";
+  box.tick({kReview});
+  EXPECT_EQ(box.modes.current(), ModeId::Capture);
+}
+
+TEST(Review, MainChangesTheApertureAndPlusMinusTheFocus) {
+  Box box;
+  box.go_to_capture();
+  box.walk();
+  box.tick({kReview});
+  const Eigen::Vector3d subject = box.picture.light_field->settings.focus;
+  box.tick({kMain, kPlus});
+  EXPECT_EQ(box.picture.light_field->settings.aperture, render::Aperture::Wide);
+  EXPECT_GT(box.picture.light_field->settings.focus.z(), subject.z());
+  box.tick({kMinus, kMinus});
+  EXPECT_LT(box.picture.light_field->settings.focus.z(), subject.z());
+  box.tick({kReview});
+  box.tick({kReview});
+  EXPECT_TRUE(box.picture.light_field->settings.focus.isApprox(subject, 1e-9));
+}
+
+TEST(Review, WipeRemovesTheViewNearestToTheVirtualCameraAndUndoBringsItBack) {
+  Box box;
+  box.go_to_capture();
+  box.walk();
+  box.tick({kReview}, 0.2);
+  const std::size_t recorded = box.views();
+  const auto& light_field = box.recorder.light_field();
+  const int nearest = light_field.nearest(around_subject(0.2).translation).value();
+  box.tick({kWipe}, 0.2);
+  EXPECT_EQ(box.views(), recorded - 1);
+  EXPECT_NE(light_field.nearest(around_subject(0.2).translation).value(), nearest);
+  box.tick({kWipeLong}, 0.2);
+  EXPECT_EQ(light_field.nearest(around_subject(0.2).translation).value(), nearest);
+}
+
+TEST(Review, OrbitTurnsByItselfAndNeedsNoTracking) {
+  Box box;
+  box.go_to_capture();
+  box.walk();
+  box.tick({kReview});
+  const auto lost = [&] { return box.world.see_nothing(tracking::TrackingReason::Relocalising); };
+  box.tick_with({kMainLong}, lost());
+  const geometry::Pose first = *box.picture.world_from_view;
+  for (int i = 0; i < 30; ++i) {
+    box.tick_with({}, lost());
+  }
+  EXPECT_GT((box.picture.world_from_view->translation - first.translation).norm(), 0.01);
+  EXPECT_EQ(box.picture.advice, "");
+}
+
+TEST(Review, OfNothingSaysSo) {
+  Box box;
+  box.go_to_capture();
+  while (box.views() > 0) {
+    box.tick({kWipe});
+  }
+  box.tick({kReview, kWipe, kWipe, kMain, kPlusLong, kMainLong});
+  EXPECT_EQ(box.modes.current(), ModeId::Review);
+  EXPECT_EQ(box.picture.advice, "nothing recorded yet");
+}
+
+// Whatever is pressed whenever, tracked or not: the modes stay consistent, and with a subject there
+// is always a way back to the capture.
+RC_GTEST_PROP(Modes, SurviveAnyButtons, ()) {
+  Box box;
+  const int ticks = *rc::gen::inRange(1, 60);
+  for (int i = 0; i < ticks; ++i) {
+    std::vector<Gesture> gestures;
+    for (int g = *rc::gen::inRange(0, 3); g > 0; --g) {
+      gestures.push_back({static_cast<Button>(*rc::gen::inRange(0, 5)),
+                          *rc::gen::arbitrary<bool>() ? Press::Long : Press::Short});
+    }
+    if (*rc::gen::inRange(0, 4) == 0) {
+      box.tick_with(gestures, box.world.see_nothing(tracking::TrackingReason::Relocalising));
+    } else {
+      box.tick(gestures, *rc::gen::inRange(-60, 60) * kDegree);
+    }
+    const bool has_subject = box.recorder.light_field().subject().has_value();
+    const ModeId mode = box.modes.current();
+    RC_ASSERT(has_subject || mode == ModeId::Acquire || mode == ModeId::Subject);
+    RC_ASSERT(!box.recorder.error());
+  }
+}
+
+}  // namespace
+}  // namespace lumibox::app

@@ -1,0 +1,132 @@
+#include "app/recorder.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "app/moments.h"
+#include "lightfield/capture.h"
+#include "support/input_error.h"
+#include "support/temp_dir.h"
+
+namespace lumibox::app {
+namespace {
+
+using testing::around_subject;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+const lightfield::Sphere kSphere{Eigen::Vector3d::UnitZ(), 0.3};
+
+class RecorderTest : public ::testing::Test {
+ protected:
+  void begin() { recorder_.begin(kSphere, world_.see_from({}), dir_ / "capture"); }
+  void record(double angle) { recorder_.record(world_.see_from(around_subject(angle))); }
+  const lightfield::LightField& light_field() const { return recorder_.light_field(); }
+
+  testing::TempDir dir_;
+  testing::World world_;
+  Recorder recorder_{testing::small_camera(), config::Capture{}, lightfield::Writing::Inline};
+};
+
+TEST_F(RecorderTest, GateAcceptsOnlyWhatIsFarEnoughFromAllRecorded) {
+  begin();
+  record(0.0);
+  record(10.0 * kDegree);
+  const auto accepts = [&](double degrees) {
+    return recorder_.accepts(world_.see_from(around_subject(degrees * kDegree)), 4.0 * kDegree);
+  };
+  EXPECT_FALSE(accepts(3.9));
+  EXPECT_TRUE(accepts(4.1));
+  EXPECT_FALSE(accepts(6.1));
+  EXPECT_TRUE(accepts(14.1));
+}
+
+TEST_F(RecorderTest, NothingIsAcceptedFromAPoorOrAnOldFrame) {
+  begin();
+  Moment moment = world_.see_from(around_subject(0.5));
+  EXPECT_TRUE(recorder_.accepts(moment, kDegree));
+  moment.fresh = false;
+  EXPECT_FALSE(recorder_.accepts(moment, kDegree));
+  moment.fresh = true;
+  moment.tracked.state = tracking::TrackingState::Poor;
+  EXPECT_FALSE(recorder_.accepts(moment, kDegree));
+}
+
+TEST_F(RecorderTest, WhatIsInMemoryIsOnDisk) {
+  begin();
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "capture")) << "nothing recorded yet";
+  record(0.0);
+  record(0.2);
+  record(0.4);
+  ASSERT_TRUE(recorder_.wipe_nearest(around_subject(0.21).translation));
+  auto capture = lightfield::load_capture(dir_ / "capture");
+  EXPECT_EQ(capture.light_field.perspectives().size(), 2U);
+  ASSERT_TRUE(recorder_.undo_wipe());
+  EXPECT_FALSE(recorder_.undo_wipe());
+  capture = lightfield::load_capture(dir_ / "capture");
+  ASSERT_EQ(capture.light_field.perspectives().size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_TRUE(capture.light_field.perspectives()[i].center().isApprox(
+        light_field().perspectives()[i].center(), 1e-9));
+  }
+}
+
+TEST_F(RecorderTest, CorrectionOfTheMapMovesPerspectivesAndSubject) {
+  begin();
+  record(0.2);
+  const Eigen::Vector3d shift(0.1, -0.2, 0.3);
+  world_.move_keyframe(0, {Eigen::Quaterniond::Identity(), shift});
+  recorder_.follow_map(world_.map(), 0.002);
+  const Eigen::Vector3d expected = around_subject(0.2).translation + shift;
+  EXPECT_TRUE(light_field().perspectives().front().center().isApprox(expected, 1e-12));
+  EXPECT_TRUE(light_field().subject()->center.isApprox(kSphere.center + shift, 1e-12));
+}
+
+TEST_F(RecorderTest, CorrectionsTooSmallToSeeAreLeftForLater) {
+  begin();
+  record(0.2);
+  const Eigen::Vector3d before = light_field().perspectives().front().center();
+  for (int i = 1; i <= 5; ++i) {
+    world_.move_keyframe(0, {Eigen::Quaterniond::Identity(), {0.001 * i, 0.0, 0.0}});
+    recorder_.follow_map(world_.map(), 0.0035);
+    const double moved = (light_field().perspectives().front().center() - before).norm();
+    EXPECT_NEAR(moved, i < 4 ? 0.0 : 0.004, 1e-12) << i;
+  }
+}
+
+TEST_F(RecorderTest, PerspectiveThatWasWipedDuringACorrectionComesBackCorrected) {
+  begin();
+  record(0.0);
+  record(0.2);
+  recorder_.wipe_nearest(around_subject(0.2).translation);
+  world_.move_keyframe(0, {Eigen::Quaterniond::Identity(), {1.0, 0.0, 0.0}});
+  recorder_.follow_map(world_.map(), 0.002);
+  recorder_.undo_wipe();
+  recorder_.follow_map(world_.map(), 0.002);
+  EXPECT_TRUE(light_field().perspectives().back().center().isApprox(
+      around_subject(0.2).translation + Eigen::Vector3d::UnitX(), 1e-12));
+}
+
+TEST_F(RecorderTest, FolderThatCannotBeMadeIsAnErrorToShowAndRecordingGoesOn) {
+  dir_.write("file", "in the way");
+  recorder_.begin(kSphere, world_.see_from({}), dir_ / "file" / "capture");
+  record(0.0);
+  record(0.2);
+  EXPECT_EQ(light_field().perspectives().size(), 2U);
+  ASSERT_TRUE(recorder_.error());
+  EXPECT_NE(recorder_.error()->find((dir_ / "file").string()), std::string::npos);
+}
+
+TEST_F(RecorderTest, NewCaptureLeavesTheOneBeforeComplete) {
+  EXPECT_EQ(next_capture_folder(dir_.path()), dir_ / "capture-0001");
+  recorder_.begin(kSphere, world_.see_from({}), next_capture_folder(dir_.path()));
+  record(0.0);
+  EXPECT_EQ(next_capture_folder(dir_.path()), dir_ / "capture-0002");
+  recorder_.begin(kSphere, world_.see_from({}), next_capture_folder(dir_.path()));
+  EXPECT_TRUE(light_field().perspectives().empty());
+  const auto first = lightfield::load_capture(dir_ / "capture-0001");
+  EXPECT_EQ(first.light_field.perspectives().size(), 1U);
+}
+
+}  // namespace
+}  // namespace lumibox::app

@@ -1,0 +1,33 @@
+#include "app/screen.h"
+
+#include <gtest/gtest.h>
+
+namespace lumibox::app {
+namespace {
+
+TEST(FittedCamera, OfTheSameSizeIsTheUndistortedCamera) {
+  config::CameraProfile profile;
+  profile.k1 = -0.3;
+  profile.cx = 300.0;
+  const geometry::Camera fitted = fitted_camera(geometry::Camera(profile), 640, 480);
+  EXPECT_FALSE(fitted.has_distortion());
+  EXPECT_EQ(fitted.profile().fx, profile.fx);
+  EXPECT_EQ(fitted.profile().cx, profile.cx);
+}
+
+TEST(FittedCamera, ShowsTheWholePictureInTheMiddle) {
+  config::CameraProfile profile;  // 640x480
+  const geometry::Camera camera(profile);
+  const geometry::Camera wide = fitted_camera(camera, 1000, 240);
+  const auto corner_of = [&](double u, double v) {
+    return *wide.project(camera.unproject({u, v})->homogeneous());
+  };
+  // Edges of pixels, not their centres, meet the edges of the display.
+  EXPECT_NEAR(corner_of(-0.5, -0.5).y(), -0.5, 1e-9);
+  EXPECT_NEAR(corner_of(639.5, 479.5).y(), 239.5, 1e-9);
+  EXPECT_NEAR(corner_of(-0.5, 0.0).x(), 339.5, 1e-9);
+  EXPECT_NEAR(corner_of(639.5, 0.0).x(), 659.5, 1e-9);
+}
+
+}  // namespace
+}  // namespace lumibox::app
