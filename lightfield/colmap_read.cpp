@@ -5,6 +5,7 @@
 #include "lightfield/colmap.h"
 #include "lightfield/colmap_parts.h"
 #include "lightfield/picture_path.h"
+#include "lightfield/text_numbers.h"
 #include "lightfield/transforms.h"
 
 namespace lumibox::lightfield {
@@ -66,13 +67,13 @@ ColmapModel read_colmap(const fs::path& folder) {
   for (const ColmapImage& image : parts.images) {
     const auto camera = parts.cameras.find(image.camera_id);
     if (camera == parts.cameras.end()) {
-      throw config::InputError(images_file, "image \"" + image.name + "\" has camera " +
+      throw config::InputError(images_file, "image \"" + printable(image.name) + "\" has camera " +
                                                 std::to_string(image.camera_id) +
                                                 ", which is not in the model");
     }
     if (!stays_inside(image.name)) {
-      throw config::InputError(images_file,
-                               "image \"" + image.name + "\", expected a path inside the folder");
+      throw config::InputError(images_file, "image \"" + printable(image.name) +
+                                                "\", expected a path inside the folder");
     }
     Perspective perspective;
     perspective.id = static_cast<int>(names.size());

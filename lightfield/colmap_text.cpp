@@ -39,7 +39,7 @@ class Lines {
   template <typename Number>
   Number number(std::string_view word) const {
     Number value{};
-    if (!parse(word, &value)) fail("not a number: " + std::string(word.substr(0, 40)));
+    if (!parse(word, &value)) fail("not a number: " + printable(word));
     return value;
   }
 
@@ -58,7 +58,7 @@ std::map<std::int64_t, config::CameraProfile> read_cameras(const fs::path& file)
     if (words.empty()) continue;
     if (words.size() < 4) lines.fail("expected CAMERA_ID MODEL WIDTH HEIGHT PARAMS[]");
     const ColmapLens* lens = find_lens(words[1]);
-    if (!lens) lines.fail("camera model " + std::string(words[1]) + ", " + kKnownLenses);
+    if (!lens) lines.fail("camera model " + printable(words[1]) + ", " + kKnownLenses);
     if (words.size() != 4 + lens->parameters) {
       lines.fail(std::to_string(words.size() - 4) + " parameters, " + std::string(lens->name) +
                  " has " + std::to_string(lens->parameters));
@@ -73,7 +73,7 @@ std::map<std::int64_t, config::CameraProfile> read_cameras(const fs::path& file)
                    parameters, &flaw);
     if (!flaw.empty()) lines.fail("the camera has " + flaw);
     if (!cameras.emplace(lines.number<long long>(words[0]), profile).second) {
-      lines.fail("camera id " + std::string(words[0]) + " twice");
+      lines.fail("camera id " + printable(words[0]) + " twice");
     }
   }
   return cameras;

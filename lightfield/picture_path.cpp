@@ -2,6 +2,7 @@
 
 #include "config/error.h"
 #include "hal/image_io.h"
+#include "lightfield/text_numbers.h"
 
 namespace lumibox::lightfield {
 
@@ -22,7 +23,7 @@ void require_pictures(const fs::path& file, const fs::path& folder,
   for (const std::string& picture : pictures) {
     std::error_code error;
     if (fs::is_regular_file(folder / picture, error)) continue;
-    if (++missing <= kMostNamed) names += (missing > 1 ? ", " : "") + picture;
+    if (++missing <= kMostNamed) names += (missing > 1 ? ", " : "") + printable(picture);
   }
   if (missing == 0) return;
   if (missing > kMostNamed) names += ", ...";

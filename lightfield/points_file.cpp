@@ -45,7 +45,7 @@ Property parse_property(ByteReader& reader, std::string_view type, std::string_v
     if (axis >= 0 && !known.floating) reader.fail("x, y and z must be float or double");
     return {known.bytes, axis};
   }
-  reader.fail("property of unknown type " + std::string(type));
+  reader.fail("property of unknown type " + printable(type));
 }
 
 Header read_header(ByteReader& reader) {
@@ -53,7 +53,7 @@ Header read_header(ByteReader& reader) {
   bool has_format = false;
   int elements = 0;
   const auto expect = [&reader](bool holds, const std::string& line) {
-    if (!holds) reader.fail("not the header of a PLY file: \"" + line.substr(0, 60) + "\"");
+    if (!holds) reader.fail("not the header of a PLY file: \"" + printable(line) + "\"");
   };
   for (bool first = true;; first = false) {
     const std::string line = reader.read_until('\n');
@@ -113,7 +113,7 @@ Eigen::Vector3d read_ascii_vertex(ByteReader& reader, const Header& header) {
     const int axis = header.properties[i].axis;
     if (axis >= 0) good = parse(words[i], &point[axis]);
   }
-  if (!good) reader.fail("not a vertex: \"" + line.substr(0, 60) + "\"");
+  if (!good) reader.fail("not a vertex: \"" + printable(line) + "\"");
   return point;
 }
 

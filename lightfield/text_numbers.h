@@ -9,6 +9,9 @@ namespace lumibox::lightfield {
 /// Shortest text that reads back as the same double, whatever the locale.
 std::string to_text(double value);
 
+/// A piece of a bad file fit for a one-line message: the beginning, without control characters.
+std::string printable(std::string_view text);
+
 /// The words of a line, split at white space.
 std::vector<std::string_view> split_words(std::string_view line);
 

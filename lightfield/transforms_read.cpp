@@ -7,6 +7,7 @@
 #include "lightfield/json_value.h"
 #include "lightfield/opengl_axes.h"
 #include "lightfield/picture_path.h"
+#include "lightfield/text_numbers.h"
 #include "lightfield/transforms.h"
 
 namespace lumibox::lightfield {
@@ -33,7 +34,7 @@ void refuse_other_lenses(const JsonValue& frame, const JsonValue& top) {
                                             "SIMPLE_RADIAL"};
   if (const auto model = find(frame, top, "camera_model");
       model && !kKnown.contains(model->text())) {
-    model->fail("is " + model->text() + ", expected OPENCV or a special case of it");
+    model->fail("is " + printable(model->text()) + ", expected OPENCV or a special case of it");
   }
   for (const char* key : {"k4", "ftheta_p0"}) {
     if (const auto value = find(frame, top, key); value && value->number() != 0.0) {
@@ -128,7 +129,8 @@ Sphere read_sphere(const JsonValue& subject) {
 /// The text at `value`, a path of a file in the same folder or below.
 std::string read_path(const JsonValue& value) {
   std::string path = value.text();
-  if (!stays_inside(path)) value.fail("is \"" + path + "\", expected a path inside the folder");
+  if (!stays_inside(path))
+    value.fail("is \"" + printable(path) + "\", expected a path inside the folder");
   return path;
 }
 

@@ -1,0 +1,195 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/mount.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <random>
+#include <set>
+
+#include "lightfield/fixtures.h"
+#include "lightfield/store.h"
+
+namespace lumibox::lightfield {
+namespace {
+
+namespace fs = std::filesystem;
+using Step = DurableFiles::Step;
+using ::testing::HasSubstr;
+
+const Sphere kSphere{Eigen::Vector3d(0.1, -0.2, 3.0), 0.7};
+
+Perspective taken(int i) {
+  return make_perspective(i, kSphere.center, small_camera());
+}
+
+/// A short capture with a wipe, an undo and points.
+void act_out(Store& store) {
+  store.set_subject(kSphere);
+  store.add(taken(0));
+  store.add(taken(1));
+  store.remove(0);
+  store.set_points({{1.0, 2.0, 3.0}});
+  store.restore(taken(0));
+  store.set_points({{4.0, 5.0, 6.0}, {7.0, 8.0, 9.0}});
+  store.set_pose(1, orbit_pose(5, kSphere.center));
+  store.add(taken(2));
+  store.remove(1);
+}
+
+TEST(StoreCrash, FolderLoadsAfterEverySingleOperation) {
+  const TemporaryFolder folder;
+  const fs::path capture = folder / "c";
+  bool begun = false;  // once there is a transforms.json, there is one for ever
+  int loads = 0;
+  const auto check = [&](Step, const fs::path&) {
+    begun = begun || fs::exists(capture / "transforms.json");
+    if (!begun) return;
+    EXPECT_EQ(input_error([&] { load_capture(capture); }), "");
+    ++loads;
+  };
+  {
+    Store store(capture, 90, Writing::Inline, DurableFiles(check));
+    act_out(store);
+  }
+  EXPECT_GT(loads, 60);
+  EXPECT_EQ(load_capture(capture).light_field.perspectives().size(), 2U);
+}
+
+/// A power cut may lose whatever was not synced, so the order of syncs counts, not what a look
+/// into the running system's folder shows.
+TEST(StoreCrash, NothingIsNamedBeforeItIsSynced) {
+  const TemporaryFolder folder;
+  std::set<std::string> synced_files;    // temporary files whose bytes are on disk
+  std::set<std::string> unsynced_names;  // renamed, but their folder not synced since
+  int renames = 0;
+  const auto check = [&](Step step, const fs::path& path) {
+    if (step == Step::Opened) synced_files.erase(path.string());
+    if (step == Step::FileSynced) synced_files.insert(path.string());
+    if (step == Step::FolderSynced) {
+      std::erase_if(unsynced_names,
+                    [&](const std::string& name) { return fs::path(name).parent_path() == path; });
+    }
+    if (step != Step::Renamed) return;
+    ++renames;
+    EXPECT_TRUE(synced_files.contains(path.string() + ".tmp")) << path;
+    EXPECT_TRUE(unsynced_names.empty()) << *unsynced_names.begin() << " before " << path;
+    unsynced_names.insert(path.string());
+  };
+  {
+    Store store(folder / "c", 90, Writing::Inline, DurableFiles(check));
+    act_out(store);
+  }
+  EXPECT_GT(renames, 10);
+  EXPECT_TRUE(unsynced_names.empty());
+}
+
+/// Runs the capture in a process that is killed after `steps` operations; true if it was.
+bool run_and_kill(const fs::path& folder, int steps) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    const auto count = [&steps](Step, const fs::path&) {
+      if (steps-- == 0) ::raise(SIGKILL);
+    };
+    {
+      Store store(folder, 90, Writing::Inline, DurableFiles(count));
+      act_out(store);
+    }
+    ::_exit(0);
+  }
+  int status = 0;
+  EXPECT_EQ(::waitpid(child, &status, 0), child);
+  return WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
+}
+
+TEST(StoreCrash, SurvivesKillMinusNineAtRandomMoments) {
+  const TemporaryFolder folder;
+  ASSERT_FALSE(run_and_kill(folder / "whole", 1'000'000));
+  EXPECT_EQ(load_capture(folder / "whole").light_field.perspectives().size(), 2U);
+  std::mt19937 random(1);
+  for (int i = 0; i < 12; ++i) {
+    const int steps = 8 + static_cast<int>(random() % 50U);
+    const fs::path capture = folder / std::to_string(i);
+    ASSERT_TRUE(run_and_kill(capture, steps)) << steps;
+    EXPECT_EQ(input_error([&] { load_capture(capture); }), "") << steps;
+  }
+}
+
+/// No file may grow beyond `bytes` while this lives: what a full disk looks like to the Store,
+/// without needing one.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    ::getrlimit(RLIMIT_FSIZE, &old_limit_);
+    const rlimit limit{bytes, old_limit_.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &old_limit_);
+    std::signal(SIGXFSZ, old_handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  void (*old_handler_)(int);
+  rlimit old_limit_{};
+};
+
+TEST(StoreFull, PictureThatDoesNotFitIsAnErrorAndTheRestStays) {
+  for (const Writing writing : {Writing::Inline, Writing::Threaded}) {
+    const TemporaryFolder folder;
+    Store store(folder / "c", 90, writing);
+    store.set_subject(kSphere);
+    store.add(taken(0));
+    store.flush();
+    {
+      const FileSizeLimit limit(100);
+      store.add(taken(1));
+      EXPECT_THAT(input_error([&] { store.flush(); }), HasSubstr("images/000001.jpg"));
+    }
+    EXPECT_THAT(store.error().value_or(""), HasSubstr("cannot write"));
+    store.add(taken(2));  // after an error nothing more is written
+    const Capture capture = load_capture(folder / "c");
+    EXPECT_EQ(capture.light_field.perspectives().size(), 1U);
+    EXPECT_FALSE(fs::exists(folder / "c/images/000001.jpg.tmp"));
+  }
+}
+
+TEST(StoreFull, TransformsThatDoNotFitLeaveTheOldOnes) {
+  const TemporaryFolder folder;
+  {
+    Store store(folder / "c", 90, Writing::Inline);
+    store.add(taken(0));
+    const FileSizeLimit limit(900);  // a picture of the test fits, two frames do not
+    store.add(taken(1));
+    EXPECT_THAT(store.error().value_or(""), HasSubstr("transforms.json"));
+    store.remove(0);
+  }
+  const Capture capture = load_capture(folder / "c");
+  ASSERT_EQ(capture.light_field.perspectives().size(), 1U);
+  EXPECT_EQ(capture.light_field.perspectives()[0].id, 0);
+}
+
+TEST(StoreFull, SmallFileSystem) {
+  const TemporaryFolder folder;
+  const fs::path disk = folder / "disk";
+  fs::create_directory(disk);
+  if (::mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=96k") != 0) {
+    GTEST_SKIP() << "may not mount a tmpfs here";
+  }
+  {
+    Store store(disk / "c", 90, Writing::Threaded);
+    for (int i = 0; i < 60; ++i) store.add(taken(i));
+    EXPECT_THAT(input_error([&] { store.flush(); }), HasSubstr("No space left on device"));
+    EXPECT_THAT(store.error().value_or(""), HasSubstr((disk / "c").string()));
+  }
+  const std::size_t kept = load_capture(disk / "c").light_field.perspectives().size();
+  EXPECT_LT(kept, 60U);
+  ::umount(disk.c_str());
+}
+
+}  // namespace
+}  // namespace lumibox::lightfield

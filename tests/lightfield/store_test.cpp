@@ -1,0 +1,180 @@
+#include "lightfield/store.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "hal/image_io.h"
+#include "lightfield/fixtures.h"
+
+namespace lumibox::lightfield {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+const Sphere kSphere{Eigen::Vector3d(0.1, -0.2, 3.0), 0.7};
+
+/// Every kind of change, in the order of a capture: record, wipe, correct the map, undo.
+void act_out(Store& store) {
+  std::vector<Perspective> taken;
+  for (int i = 0; i < 6; ++i) {
+    taken.push_back(make_perspective(i, kSphere.center, small_camera()));
+  }
+  store.set_subject(kSphere);
+  for (int i = 0; i < 4; ++i) store.add(taken[static_cast<std::size_t>(i)]);
+  store.remove(1);
+  store.remove(2);
+  store.set_points({{1.0, 2.0, 3.0}, {0.1, 0.2, 1.0 / 3.0}});
+  store.set_subject({kSphere.center, 0.8});
+  store.set_pose(0, taken[5].world_from_camera);
+  store.set_pose(3, taken[4].world_from_camera);
+  store.restore(taken[2]);
+  store.set_points({{4.0, 5.0, 6.0}});
+  store.add(taken[4]);
+  store.set_pose(4, taken[0].world_from_camera);
+}
+
+std::map<std::string, std::string> files_in(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) {
+      files[fs::relative(entry.path(), folder).string()] = read_text(entry.path());
+    }
+  }
+  return files;
+}
+
+TEST(Store, EmptyCaptureIsLoadable) {
+  const TemporaryFolder folder;
+  const Store store(folder / "deep/down/capture", 90, Writing::Inline);
+  const Capture capture = load_capture(folder / "deep/down/capture");
+  EXPECT_TRUE(capture.light_field.perspectives().empty());
+  EXPECT_FALSE(capture.light_field.subject());
+}
+
+TEST(Store, LoadsBackWhatWasRecorded) {
+  const TemporaryFolder folder;
+  {
+    Store store(folder / "c", 90, Writing::Inline);
+    act_out(store);
+  }
+  const Capture capture = load_capture(folder / "c");
+  ASSERT_EQ(capture.light_field.perspectives().size(), 4U);
+  EXPECT_EQ(capture.light_field.subject()->center, kSphere.center);
+  EXPECT_EQ(capture.light_field.subject()->radius, 0.8);
+  ASSERT_EQ(capture.points.size(), 1U);
+  EXPECT_EQ(capture.points[0], Eigen::Vector3d(4.0, 5.0, 6.0));
+  const std::map<int, int> pose_of{{0, 5}, {2, 2}, {3, 4}, {4, 0}};
+  for (const Perspective& loaded : capture.light_field.perspectives()) {
+    const Perspective taken = make_perspective(loaded.id, kSphere.center, small_camera());
+    const geometry::Pose expected = orbit_pose(pose_of.at(loaded.id), kSphere.center);
+    EXPECT_LT((loaded.world_from_camera.matrix4() - expected.matrix4()).norm(), 1e-14);
+    EXPECT_EQ(loaded.timestamp_ns, taken.timestamp_ns);
+    EXPECT_EQ(loaded.keyframe, taken.keyframe);
+    EXPECT_LT((loaded.keyframe_from_camera.matrix4() - taken.keyframe_from_camera.matrix4()).norm(),
+              1e-14);
+    EXPECT_NEAR(loaded.camera->profile().cx, taken.camera->profile().cx, 1e-14);
+    EXPECT_EQ(loaded.camera->profile().p2, taken.camera->profile().p2);
+    EXPECT_EQ(*loaded.color, hal::decode_jpeg(hal::encode_jpeg(*taken.color, 90), "memory"));
+  }
+}
+
+TEST(Store, IsWhatNerfstudioReads) {
+  const TemporaryFolder folder;
+  {
+    Store store(folder / "c", 90, Writing::Inline);
+    act_out(store);
+  }
+  const auto json = nlohmann::json::parse(read_text(folder / "c" / "transforms.json"));
+  EXPECT_EQ(json.at("camera_model"), "OPENCV");
+  EXPECT_EQ(json.at("w"), 16);
+  EXPECT_EQ(json.at("h"), 12);
+  EXPECT_EQ(json.at("fl_x"), 20.1);
+  EXPECT_EQ(json.at("cx"), 7.4 + 0.5);  // the first pixel's centre is at 0.5 there
+  EXPECT_EQ(json.at("k1"), 0.05);
+  EXPECT_EQ(json.at("ply_file_path"), "points.ply");
+  EXPECT_FALSE(json.contains("applied_transform"));
+  const auto& frame = json.at("frames").at(1);
+  EXPECT_EQ(frame.at("file_path"), "images/000002.jpg");
+  EXPECT_NEAR(frame.at("timestamp").get<double>(), 1305031102.241970, 1e-6);
+  // OpenGL: the third column points from the subject to the camera, the second up (ours is down).
+  const geometry::Pose pose = orbit_pose(2, kSphere.center);
+  for (int r = 0; r < 3; ++r) {
+    const auto& row = frame.at("transform_matrix").at(static_cast<std::size_t>(r));
+    EXPECT_NEAR(row.at(0).get<double>(), pose.matrix3()(r, 0), 1e-15);
+    EXPECT_NEAR(row.at(1).get<double>(), -pose.matrix3()(r, 1), 1e-15);
+    EXPECT_NEAR(row.at(2).get<double>(), -pose.matrix3()(r, 2), 1e-15);
+    EXPECT_EQ(row.at(3).get<double>(), pose.translation[r]);
+  }
+}
+
+TEST(Store, ThreadedWritesTheSameBytesAsInline) {
+  const TemporaryFolder folder;
+  {
+    Store threaded(folder / "threaded", 90, Writing::Threaded);
+    Store inline_store(folder / "inline", 90, Writing::Inline);
+    act_out(threaded);
+    act_out(inline_store);
+    threaded.flush();
+    inline_store.flush();
+    EXPECT_EQ(files_in(folder / "threaded"), files_in(folder / "inline"));
+  }
+  EXPECT_EQ(files_in(folder / "threaded"), files_in(folder / "inline"));
+}
+
+TEST(Store, WipedPictureStaysUntilTheEnd) {
+  const TemporaryFolder folder;
+  {
+    Store store(folder / "c", 90, Writing::Inline);
+    act_out(store);
+    EXPECT_TRUE(fs::exists(folder / "c/images/000001.jpg"));
+  }
+  EXPECT_FALSE(fs::exists(folder / "c/images/000001.jpg"));
+  EXPECT_TRUE(fs::exists(folder / "c/images/000002.jpg"));
+}
+
+TEST(Store, DifferentCamerasAreWrittenWithEachFrame) {
+  const TemporaryFolder folder;
+  Store store(folder / "c", 90, Writing::Inline);
+  store.add(make_perspective(0, kSphere.center, small_camera()));
+  store.add(make_perspective(1, kSphere.center, small_camera(0.25)));
+  const auto json = nlohmann::json::parse(read_text(folder / "c" / "transforms.json"));
+  // nerfstudio would use one found at the top for all.
+  EXPECT_FALSE(json.contains("fl_x"));
+  EXPECT_FALSE(json.contains("k1"));
+  const Capture capture = load_capture(folder / "c");
+  EXPECT_EQ(capture.light_field.perspectives()[0].camera->profile().k3, 0.0);
+  EXPECT_EQ(capture.light_field.perspectives()[1].camera->profile().k3, 0.25);
+}
+
+TEST(Store, RefusesAFolderThatHoldsSomething) {
+  const TemporaryFolder folder;
+  write_text(folder / "full/note.txt", "mine");
+  write_text(folder / "file", "mine");
+  const auto open = [&](const char* name) {
+    return input_error([&] { Store(folder / name, 90, Writing::Inline); });
+  };
+  EXPECT_THAT(open("full"), HasSubstr("full: is not empty"));
+  EXPECT_THAT(open("file"), HasSubstr("file: is a file"));
+  EXPECT_THAT(open("file/below"), HasSubstr("file"));
+  EXPECT_EQ(read_text(folder / "full/note.txt"), "mine");
+  fs::create_directory(folder / "empty");
+  EXPECT_EQ(open("empty"), "");
+}
+
+TEST(Store, FolderThatGoesAwayIsAnErrorNotACrash) {
+  for (const Writing writing : {Writing::Inline, Writing::Threaded}) {
+    const TemporaryFolder folder;
+    Store store(folder / "c", 90, writing);
+    fs::remove_all(folder / "c");
+    store.add(make_perspective(0, kSphere.center, small_camera()));
+    EXPECT_THAT(input_error([&] { store.flush(); }), HasSubstr("images/000000.jpg"));
+    EXPECT_THAT(store.error().value_or(""), HasSubstr("No such file"));
+  }
+}
+
+}  // namespace
+}  // namespace lumibox::lightfield
