@@ -15,6 +15,7 @@ enum class CameraState {
   Lost,       ///< the device went away; the backend tries to get it back by itself
 };
 
+/// Since the camera object was made, over all starts.
 struct CameraCounters {
   std::int64_t delivered = 0;  ///< frames handed out by take_newest()
   std::int64_t dropped = 0;    ///< frames made but overwritten by a newer one, or lost on the way

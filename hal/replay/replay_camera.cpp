@@ -19,7 +19,6 @@ class ReplayCamera::Impl {
     reader_ = make_frame_reader(sequence_);
     start_ns_ = clock_.now_ns();
     next_ = 0;
-    counters_ = {};
     state_ = CameraState::Streaming;
   }
 
