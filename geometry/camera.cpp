@@ -91,6 +91,7 @@ std::optional<Eigen::Vector2d> Camera::project(const Eigen::Vector3d& p,
 std::optional<Eigen::Vector2d> Camera::unproject(const Eigen::Vector2d& pixel) const {
   const Eigen::Vector2d target((pixel.x() - profile_.cx) / profile_.fx,
                                (pixel.y() - profile_.cy) / profile_.fy);
+  if (!target.allFinite()) return std::nullopt;
   if (!has_distortion_) return target;
   Eigen::Vector2d n = target;
   // Start inside the fold, where Newton's method stays on the branch that a lens can see.
