@@ -43,8 +43,7 @@ class Projection {
 
   const Eigen::Vector3d& eye() const { return camera_.translation; }
 
-  /// Sizes are given for a picture of 480 rows.
-  float scale() const { return static_cast<float>(std::max(profile_.height, 160)) / 480.0F; }
+  float scale() const { return stroke_scale(profile_.height); }
 
  private:
   lightfield::Sphere sphere_;

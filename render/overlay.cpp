@@ -58,7 +58,7 @@ class Triangles {
 };
 
 Strokes reticle(int width, int height) {
-  const float scale = static_cast<float>(std::max(height, 160)) / 480.0F;
+  const float scale = stroke_scale(height);
   const Eigen::Vector2f middle(0.5F * static_cast<float>(width - 1),
                                0.5F * static_cast<float>(height - 1));
   Strokes strokes;

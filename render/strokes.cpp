@@ -28,6 +28,10 @@ Eigen::Vector2f sideways(std::span<const StrokePoint> points, std::size_t i) {
 
 }  // namespace
 
+float stroke_scale(int height) {
+  return std::max(0.6F, static_cast<float>(height) / 480.0F);
+}
+
 void Strokes::line(std::span<const StrokePoint> points, float half_width, const Color& color) {
   if (points.size() < 2) return;
   const float reach = half_width + kEdge;

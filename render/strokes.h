@@ -22,6 +22,9 @@ struct StrokePoint {
   float opacity = 1.0F;
 };
 
+/// Factor for sizes given for a picture of 480 rows; on small screens lines stay a pixel wide.
+float stroke_scale(int height);
+
 /// Smooth lines and discs as triangles, in drawing order; shape.frag antialiases their edges.
 class Strokes {
  public:

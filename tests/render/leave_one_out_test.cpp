@@ -51,8 +51,8 @@ TEST(LeaveOneOut, TheTruthScoresBest) {
         leave_one_out(perspectives, kSubject, {}, [&](const View& view, const auto&, const auto&) {
           return test::photograph(world, view.camera, view.world_from_camera);
         });
-    EXPECT_GT(results[0].mean.psnr, distorted ? 35.0 : 98.0);
-    EXPECT_GT(results[0].mean.ssim_subject, 0.98);
+    EXPECT_GT(results[0].mean.psnr, distorted ? 33.0 : 98.0);
+    EXPECT_GT(results[0].mean.ssim_subject, 0.97);
   }
 }
 

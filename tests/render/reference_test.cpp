@@ -72,7 +72,7 @@ TEST(Reference, WideApertureBlursWhatIsOffTheFocusPlane) {
   const hal::Image mask = middle(160, 120);
   Settings settings = augmented_settings_from({}, Eigen::Vector3d(0.0, 0.0, 0.0));
   const double in_focus = psnr(render_reference(view, perspectives, settings), truth, &mask);
-  settings.focus.z() = 1.5;
+  settings.focus.z() = -1.5;
   const double out_of_focus = psnr(render_reference(view, perspectives, settings), truth, &mask);
   EXPECT_GT(in_focus, 45.0);
   EXPECT_LT(out_of_focus, 25.0);
