@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdio>
 #include <mutex>
+#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -20,9 +21,15 @@ namespace {
                            "); is a driver for EGL and OpenGL ES 3 installed?");
 }
 
+/// True if `name` is one of the words of an extension list; the list may be null.
 bool lists(const char* extensions, std::string_view name) {
-  const std::string all = " " + std::string(extensions == nullptr ? "" : extensions) + " ";
-  return all.find(" " + std::string(name) + " ") != std::string::npos;
+  std::istringstream words(extensions == nullptr ? "" : extensions);
+  for (std::string word; words >> word;) {
+    if (word == name) {
+      return true;
+    }
+  }
+  return false;
 }
 
 /// The display if it can be initialised, else EGL_NO_DISPLAY.

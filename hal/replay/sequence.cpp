@@ -63,11 +63,17 @@ Image first_frame(const fs::path& video) {
   return *std::move(frame);
 }
 
-/// The folder's own calib.txt, if there is one.
-std::optional<fs::path> own_calibration(const fs::path& folder) {
-  const fs::path file = folder / "calib.txt";
+/// A file of the folder, if it is there.
+std::optional<fs::path> optional_file(const fs::path& folder, const char* name) {
+  const fs::path file = folder / name;
   std::error_code ignored;
   return fs::exists(file, ignored) ? std::optional(file) : std::nullopt;
+}
+
+/// The calibration to use: the one given on the command line, else the folder's own.
+std::optional<fs::path> calibration_of(const fs::path& folder,
+                                       const std::optional<fs::path>& given) {
+  return given ? given : optional_file(folder, "calib.txt");
 }
 
 /// folder/name, which must be a file that lies inside the folder when all links are followed:
@@ -126,7 +132,7 @@ void check_first_picture(const Sequence& sequence, const fs::path& calibration) 
 Sequence open_tum_folder(const fs::path& folder, const std::optional<fs::path>& given) {
   Sequence sequence;
   sequence.path = folder;
-  const std::optional<fs::path> calibration = given ? given : own_calibration(folder);
+  const std::optional<fs::path> calibration = calibration_of(folder, given);
   if (!calibration) {
     throw InputError(folder / "calib.txt",
                      "no such file; expected the camera's calibration there "
@@ -136,19 +142,19 @@ Sequence open_tum_folder(const fs::path& folder, const std::optional<fs::path>& 
 
   const fs::path list = folder / "rgb.txt";
   const std::vector<ImageLine> lines = read_image_list(list);
-  if (fs::exists(folder / "rgb.mp4")) {
-    sequence.video = folder / "rgb.mp4";
+  sequence.video = optional_file(folder, "rgb.mp4");
+  if (sequence.video) {
     take_video(sequence, lines, list);
   } else {
     take_images(sequence, lines, list);
   }
   check_first_picture(sequence, *calibration);
 
-  if (fs::exists(folder / "groundtruth.txt")) {
-    sequence.ground_truth = read_ground_truth(folder / "groundtruth.txt");
+  if (const auto file = optional_file(folder, "groundtruth.txt")) {
+    sequence.ground_truth = read_ground_truth(*file);
   }
-  if (fs::exists(folder / "subject.txt")) {
-    sequence.subject = read_subject(folder / "subject.txt");
+  if (const auto file = optional_file(folder, "subject.txt")) {
+    sequence.subject = read_subject(*file);
   }
   return sequence;
 }
@@ -156,13 +162,14 @@ Sequence open_tum_folder(const fs::path& folder, const std::optional<fs::path>& 
 /// The pictures that lie in a folder, by name.
 std::vector<fs::path> list_images(const fs::path& folder) {
   std::vector<fs::path> images;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+  std::error_code failure;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure)) {
     std::string extension = entry.path().extension().string();
     std::ranges::transform(extension, extension.begin(),
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     constexpr std::string_view kExtensions[] = {".jpg", ".jpeg", ".png", ".pgm", ".ppm"};
     if (std::ranges::find(kExtensions, extension) != std::end(kExtensions) &&
-        entry.is_regular_file()) {
+        entry.is_regular_file(failure)) {
       images.push_back(entry.path());
     }
   }
@@ -178,7 +185,7 @@ Sequence open_image_folder(const fs::path& folder, const std::optional<fs::path>
     throw InputError(folder, "holds neither rgb.txt nor images; expected a sequence");
   }
   const ImageInfo first = read_image_info(images.front());
-  const std::optional<fs::path> calibration = given ? given : own_calibration(folder);
+  const std::optional<fs::path> calibration = calibration_of(folder, given);
   if (calibration) {
     sequence.profile = read_calibration(*calibration);
     check_size(first.width, first.height, sequence.profile, images.front(), *calibration);
@@ -224,7 +231,7 @@ Sequence open_sequence(const fs::path& path, const std::optional<fs::path>& cali
   if (!fs::is_directory(path, ignored)) {
     return open_bare_video(path, calibration);
   }
-  if (fs::exists(path / "rgb.txt")) {
+  if (optional_file(path, "rgb.txt")) {
     return open_tum_folder(path, calibration);
   }
   return open_image_folder(path, calibration);

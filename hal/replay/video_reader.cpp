@@ -74,6 +74,9 @@ VideoInfo read_video_info(const fs::path& file) {
   while (packets.grab()) {
     ++info.frames;
   }
+  if (info.frames == 0 || !(info.fps > 0.0)) {
+    throw config::InputError(file, "a video without frames or without a frame rate");
+  }
   return info;
 }
 
