@@ -1,7 +1,9 @@
 #include <spng.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <string>
@@ -48,6 +50,12 @@ ImageInfo read_header(const Context& context, const fs::path& name) {
   return {static_cast<int>(header.width), static_cast<int>(header.height), gray ? 1 : 3};
 }
 
+/// True if the file holds a whole end chunk; the library does not ask for the last of its bytes.
+bool has_end(Bytes bytes) {
+  constexpr std::uint8_t kEnd[] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xAE, 0x42, 0x60, 0x82};
+  return std::ranges::find_end(bytes, kEnd).size() == sizeof kEnd;
+}
+
 [[noreturn]] void throw_unwritable(const fs::path& path) {
   const std::string reason = std::strerror(errno);
   std::error_code ignored;
@@ -83,7 +91,10 @@ Image decode_png(Bytes bytes, const fs::path& name) {
   // RGB8 is the one format that the library makes of every kind of PNG.
   Image color(info.width, info.height, 3);
   check(spng_decode_image(context.get(), color.data(), color.size_bytes(), SPNG_FMT_RGB8, 0), name);
-  check(spng_decode_chunks(context.get()), name);  // a file cut after the pixels is damaged too
+  check(spng_decode_chunks(context.get()), name);
+  if (!has_end(bytes)) {
+    throw config::InputError(name, "damaged PNG: cut before its end");
+  }
   if (info.channels == 3) {
     return color;
   }

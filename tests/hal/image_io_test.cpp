@@ -43,7 +43,7 @@ double mean_difference(const Image& a, const Image& b) {
   return sum / static_cast<double>(a.size_bytes());
 }
 
-/// PNG bytes of raw samples in any of the format's kinds.
+/// PNG bytes of raw samples, as they stand in the file, in any of the format's kinds.
 std::string encode_png(spng_ihdr header, const std::vector<std::uint8_t>& samples,
                        const spng_plte* palette = nullptr) {
   const std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)> context(spng_ctx_new(SPNG_CTX_ENCODER),
@@ -54,7 +54,7 @@ std::string encode_png(spng_ihdr header, const std::vector<std::uint8_t>& sample
     spng_plte copy = *palette;
     spng_set_plte(context.get(), &copy);
   }
-  EXPECT_EQ(spng_encode_image(context.get(), samples.data(), samples.size(), SPNG_FMT_PNG,
+  EXPECT_EQ(spng_encode_image(context.get(), samples.data(), samples.size(), SPNG_FMT_RAW,
                               SPNG_ENCODE_FINALIZE),
             SPNG_OK);
   std::size_t size = 0;
