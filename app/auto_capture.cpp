@@ -1,5 +1,7 @@
 #include "app/auto_capture.h"
 
+#include <spdlog/spdlog.h>
+
 #include <numbers>
 #include <utility>
 
@@ -9,12 +11,13 @@ namespace lumibox::app {
 
 AutoCapture::AutoCapture(Recorder& recorder, const geometry::Camera& camera,
                          const config::Capture& options, std::filesystem::path folder,
-                         std::optional<SubjectPixel> subject)
+                         const std::optional<SubjectPixel>& subject)
     : recorder_(recorder),
       camera_(camera),
       options_(options),
       folder_(std::move(folder)),
-      subject_(subject.value_or(SubjectPixel{reticle(camera), 0})) {}
+      subject_(subject.value_or(SubjectPixel{reticle(camera), 0})),
+      subject_given_(subject.has_value()) {}
 
 void AutoCapture::see(const Moment& moment) {
   recorder_.follow_map(moment.map, options_.moved_share);
@@ -32,6 +35,10 @@ void AutoCapture::place(const Moment& moment) {
   if (depth) {
     recorder_.begin(sphere_on_ray(*ray, *depth, options_), moment, folder_);
     placed_ = true;
+    if (subject_given_ && moment.frame.index != subject_.frame) {
+      spdlog::warn("frame {} is not tracked well; the subject is placed in frame {}",
+                   subject_.frame, moment.frame.index);
+    }
   }
 }
 

@@ -25,7 +25,7 @@ class AutoCapture {
  public:
   /// Without `subject` the sphere is placed in the first frame that is tracked well.
   AutoCapture(Recorder& recorder, const geometry::Camera& camera, const config::Capture& options,
-              std::filesystem::path folder, std::optional<SubjectPixel> subject);
+              std::filesystem::path folder, const std::optional<SubjectPixel>& subject);
 
   void see(const Moment& moment);
 
@@ -40,6 +40,7 @@ class AutoCapture {
   config::Capture options_;
   std::filesystem::path folder_;
   SubjectPixel subject_;
+  bool subject_given_;
   bool placed_ = false;
 };
 

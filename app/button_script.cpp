@@ -57,16 +57,15 @@ std::optional<ScriptLine> parse_line(const std::string& text) {
 
 }  // namespace
 
-std::vector<hal::ButtonEvent> press_at(double time_s, const Gesture& gesture) {
-  constexpr double kShort_s = 0.1;
-  constexpr double kLong_s = 1.5;  // longer than any sensible controls.long_press_s
-  const double held_s = gesture.press == Press::Long ? kLong_s : kShort_s;
+std::vector<hal::ButtonEvent> press_at(double time_s, const Gesture& gesture, double long_press_s) {
+  const double held_s = (gesture.press == Press::Long ? 1.2 : 0.2) * long_press_s;
   const auto ns = [](double s) { return static_cast<std::int64_t>(std::llround(s * 1e9)); };
   return {{gesture.button, hal::ButtonAction::Pressed, ns(time_s)},
           {gesture.button, hal::ButtonAction::Released, ns(time_s + held_s)}};
 }
 
-std::vector<hal::ButtonEvent> read_button_script(const std::filesystem::path& file) {
+std::vector<hal::ButtonEvent> read_button_script(const std::filesystem::path& file,
+                                                 double long_press_s) {
   std::ifstream stream(file);
   if (!stream) {
     throw config::InputError(file, "cannot be opened; expected a script of button presses");
@@ -90,7 +89,7 @@ std::vector<hal::ButtonEvent> read_button_script(const std::filesystem::path& fi
       throw config::InputError(file, number, "the time goes back");
     }
     last_s = line->time_s;
-    for (const hal::ButtonEvent& event : press_at(line->time_s, line->gesture)) {
+    for (const hal::ButtonEvent& event : press_at(line->time_s, line->gesture, long_press_s)) {
       events.push_back(event);
     }
   }

@@ -8,12 +8,13 @@
 
 namespace lumibox::app {
 
-/// Edges of one press that begins at `time_s`.
-std::vector<hal::ButtonEvent> press_at(double time_s, const Gesture& gesture);
+/// Edges of one press that begins at `time_s`; a long one lasts a little more than `long_press_s`.
+std::vector<hal::ButtonEvent> press_at(double time_s, const Gesture& gesture, double long_press_s);
 
 /// Reads a script of button presses, one per line: `seconds button [long]`, the button one of main,
 /// review, plus, minus, wipe; `#` begins a comment. Times must not go back. Throws
 /// config::InputError with file and line.
-std::vector<hal::ButtonEvent> read_button_script(const std::filesystem::path& file);
+std::vector<hal::ButtonEvent> read_button_script(const std::filesystem::path& file,
+                                                 double long_press_s);
 
 }  // namespace lumibox::app

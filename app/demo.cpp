@@ -41,36 +41,35 @@ constexpr Gesture kMinusLong{Button::Minus, Press::Long};
 constexpr Gesture kWipe{Button::Wipe, Press::Short};
 constexpr Gesture kWipeLong{Button::Wipe, Press::Long};
 
-// The walk of the scene takes 20 seconds; after it the box is held still.
+// The walk of the scene takes 21.5 seconds; after it the box has nothing new to see.
 constexpr Step kSteps[] = {
     {0.2, kMain, "01-looking-around", "Main: nothing to place yet, so nothing happens"},
-    {1.4, kReview, "02-aim", "a map is there; Review: the augmented aperture"},
-    {2.2, kMinus, "03-focus", "-: focus nearer"},
-    {2.5, kPlus, "04-refocused", "+: and back"},
-    {2.8, kMain, nullptr, "Main: the sphere stays where the focus is"},
-    {3.1, kMain, "05-placed", "Main: the capture begins"},
-    {5.0, std::nullopt, "06-capture-early", "painting the sphere"},
-    {8.0, kWipe, nullptr, "Wipe: the nearest view is removed, recording pauses"},
-    {8.3, kWipeLong, nullptr, "Wipe, long: it comes back"},
-    {9.9, kMain, nullptr, "Main: recording goes on"},
-    {12.0, std::nullopt, "07-capture-middle", "painting the sphere"},
+    {1.6, kReview, "02-aim", "a map is there; Review: the augmented aperture"},
+    {2.2, kMinusLong, "03-focus", "-, long: focus nearer"},
+    {3.0, kPlusLong, "04-focused-nearer", "+, long: and back"},
+    {3.8, kMain, nullptr, "Main: the sphere stays where the focus is"},
+    {4.0, kMain, "05-placed", "Main: the capture begins"},
+    {6.0, std::nullopt, "06-capture-early", "painting the sphere"},
+    {8.0, kWipe, nullptr, "Wipe: the nearest view is removed, and recording pauses"},
+    {8.2, kWipeLong, nullptr, "Wipe, long: it comes back"},
+    {9.0, kMain, nullptr, "Main: recording goes on"},
+    {13.0, std::nullopt, "07-capture-middle", "painting the sphere"},
     {15.0, kReview, nullptr, "Review: at once, from where the box is"},
     {15.2, kReview, "08-review-on-the-way", "Review: back to the capture"},
-    {19.9, std::nullopt, "09-capture-late", "the walk ends"},
-    {20.1, kReview, nullptr, "Review"},
-    {20.2, kMainLong, nullptr, "Main, long: an automatic orbit in place of the box"},
-    {22.0, kMain, "10-review-small-aperture", "Main: the wide aperture"},
-    {22.3, kMinusLong, "11-review-wide-aperture", "-, long: focus nearer"},
-    {24.0, kPlusLong, "12-focus-near", "+, long: focus back"},
-    {25.6, kPlusLong, nullptr, "+, long: focus farther"},
-    {27.3, std::nullopt, "13-focus-far", "the end"},
+    {21.4, kReview, "09-capture-late", "the walk ends; Review"},
+    {21.6, kMainLong, nullptr, "Main, long: a slow orbit in place of the box"},
+    {24.0, kMain, "10-review-small-aperture", "Main: the wide aperture"},
+    {24.3, kMinusLong, "11-review-wide-aperture", "-, long: focus nearer"},
+    {25.1, kPlusLong, "12-focus-near", "+, long: focus back"},
+    {25.9, kPlusLong, nullptr, "+, long: focus farther"},
+    {26.7, std::nullopt, "13-focus-far", "the end"},
 };
 
-std::vector<hal::ButtonEvent> presses() {
+std::vector<hal::ButtonEvent> presses(double long_press_s) {
   std::vector<hal::ButtonEvent> events;
   for (const Step& step : kSteps) {
     if (step.press) {
-      for (const hal::ButtonEvent& event : press_at(step.time_s, *step.press)) {
+      for (const hal::ButtonEvent& event : press_at(step.time_s, *step.press, long_press_s)) {
         events.push_back(event);
       }
     }
@@ -113,7 +112,8 @@ void run_demo(const config::Config& config, const std::filesystem::path& out) {
   Devices devices;
   devices.clock = std::make_unique<hal::VirtualClock>();
   devices.camera = std::make_unique<hal::SimCamera>(scene, *devices.clock);
-  devices.buttons = std::make_unique<hal::ScriptedButtons>(presses(), *devices.clock);
+  devices.buttons =
+      std::make_unique<hal::ScriptedButtons>(presses(config.controls.long_press_s), *devices.clock);
   auto offscreen = std::make_unique<hal::OffscreenDisplay>(640, 480);
   const hal::OffscreenDisplay& display = *offscreen;
   devices.display = std::move(offscreen);

@@ -67,7 +67,7 @@ void say_quality(const hal::Scene& scene, const Loop& loop) {
     sum += psnr;
   }
   std::printf(
-      "%d views between them, against the simulator's own: %.1f dB on the subject "
+      "%zu views between them, against the simulator's own: %.1f dB on the subject "
       "(worst %.1f dB)\n",
       kViews, sum / static_cast<double>(kViews), worst);
 }

@@ -61,10 +61,12 @@ std::unique_ptr<hal::Camera> open_camera(const std::string& text, const hal::Clo
   refuse("camera", text, "sim:SCENE.toml and replay:SEQUENCE");
 }
 
-std::unique_ptr<hal::Buttons> open_buttons(const std::string& text, const hal::Clock& clock) {
+std::unique_ptr<hal::Buttons> open_buttons(const std::string& text, double long_press_s,
+                                           const hal::Clock& clock) {
   const Name name = split(text);
   if (name.kind == "script") {
-    return std::make_unique<hal::ScriptedButtons>(read_button_script(name.what), clock);
+    return std::make_unique<hal::ScriptedButtons>(read_button_script(name.what, long_press_s),
+                                                  clock);
   }
   if (text == "none") {
     return std::make_unique<hal::ScriptedButtons>(std::vector<hal::ButtonEvent>{}, clock);
@@ -105,12 +107,13 @@ std::unique_ptr<hal::Display> open_display(const std::string& text) {
 
 }  // namespace
 
-Devices open_devices(const config::Devices& options) {
+Devices open_devices(const config::Config& config) {
+  const config::Devices& options = config.devices;
   Devices devices;
   devices.clock = open_clock(options.clock);
   devices.lockstep = options.clock == "virtual";
   devices.camera = open_camera(options.camera, *devices.clock);
-  devices.buttons = open_buttons(options.buttons, *devices.clock);
+  devices.buttons = open_buttons(options.buttons, config.controls.long_press_s, *devices.clock);
   devices.display = open_display(options.display);
   devices.display->make_current();
   devices.camera->start();

@@ -20,9 +20,10 @@ struct Devices {
   bool lockstep = false;  ///< time is virtual: nothing may run beside the loop
 };
 
-/// The one place where backends are chosen. Opens what `options` names (config.h lists the kinds),
+/// The one place where backends are chosen. Opens what `config.devices` names (config.h lists the
+/// kinds),
 /// the camera started and the display's context current on this thread. Throws config::InputError
 /// that names the option, what it says and which kinds this build has.
-Devices open_devices(const config::Devices& options);
+Devices open_devices(const config::Config& config);
 
 }  // namespace lumibox::app

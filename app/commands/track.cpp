@@ -1,3 +1,5 @@
+#include <spdlog/spdlog.h>
+
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -44,8 +46,12 @@ struct Result {
   std::vector<Tracked> frames;
 };
 
-/// `U,V@FRAME`
-SubjectPixel parse_subject(const std::string& text) {
+/// Of `--subject U,V@FRAME`; none if it was not given.
+std::optional<SubjectPixel> subject_of(const TrackOptions& options) {
+  if (!options.subject) {
+    return std::nullopt;
+  }
+  const std::string& text = *options.subject;
   SubjectPixel subject;
   long long frame = -1;
   int read = 0;
@@ -62,8 +68,9 @@ SubjectPixel parse_subject(const std::string& text) {
 
 /// Until the recording is over: look, note, let the capture see it too.
 Result play(Sight& sight, hal::Camera& camera, hal::Clock& clock, AutoCapture* capture,
-            Progress& progress) {
+            std::int64_t frames) {
   constexpr std::int64_t kPollNs = 1'000'000;
+  Progress progress("tracking", frames);
   Result result;
   while (true) {
     const Moment& moment = sight.look();
@@ -136,16 +143,35 @@ void say(const TrackReport& report, const nlohmann::json& json) {
   }
 }
 
+void write_trajectory(const std::filesystem::path& file,
+                      const std::vector<hal::StampedPose>& trajectory) {
+  make_parent_folder(file);
+  hal::write_tum_trajectory(file, trajectory);
+}
+
+/// Brings the capture to disk and says what it came to.
+void finish_capture(const std::filesystem::path& folder, Recorder& recorder,
+                    const tracking::Tracker& tracker, nlohmann::json& json) {
+  recorder.finish(tracker);
+  const std::size_t perspectives = recorder.light_field().perspectives().size();
+  json["perspectives"] = perspectives;
+  if (!recorder.light_field().subject()) {
+    spdlog::warn("{}: no capture: no frame was tracked well enough to place the subject",
+                 folder.string());
+    return;
+  }
+  std::printf("%zu perspectives in %s\n", perspectives, folder.c_str());
+}
+
 void track(const TrackOptions& options) {
   const config::Config config = load_config(options.sources);
-  const auto subject = options.subject ? std::optional(parse_subject(*options.subject))
-                                       : std::optional<SubjectPixel>();
+  const std::optional<SubjectPixel> subject = subject_of(options);
   const hal::Sequence sequence = hal::open_sequence(options.sequence, options.calibration);
+  const Threading threading = options.realtime ? kThreaded : kLockstep;
+  const geometry::Camera model(sequence.profile);
   hal::SystemClock clock;
   hal::ReplayCamera camera(sequence, clock,
                            options.realtime ? hal::Pacing::Recorded : hal::Pacing::Lockstep);
-  const geometry::Camera model(sequence.profile);
-  const Threading threading = options.realtime ? kThreaded : kLockstep;
   tracking::Tracker tracker(model, config.tracking, threading.mapping, options.seed);
   Sight sight(camera, clock, tracker);
   Recorder recorder(model, config.capture, threading.writing);
@@ -156,29 +182,22 @@ void track(const TrackOptions& options) {
   }
 
   camera.start();
-  Result result;
-  {
-    Progress progress("tracking", static_cast<std::int64_t>(sequence.entries.size()));
-    result = play(sight, camera, clock, capture ? &*capture : nullptr, progress);
-  }
+  const Result result = play(sight, camera, clock, capture ? &*capture : nullptr,
+                             static_cast<std::int64_t>(sequence.entries.size()));
   tracker.finish();
 
-  const auto trajectory = final_trajectory(result, tracker);
-  make_parent_folder(options.out);
-  hal::write_tum_trajectory(options.out, trajectory);
+  const auto live = live_trajectory(result);
+  const auto corrected = final_trajectory(result, tracker);
+  write_trajectory(options.out, corrected);
   if (options.live) {
-    make_parent_folder(*options.live);
-    hal::write_tum_trajectory(*options.live, live_trajectory(result));
+    write_trajectory(*options.live, live);
   }
   nlohmann::json json = result.report.to_json(tracker.statistics());
   say(result.report, json);
-  judge("live", live_trajectory(result), sequence.ground_truth, json);
-  judge("final", trajectory, sequence.ground_truth, json);
+  judge("live", live, sequence.ground_truth, json);
+  judge("final", corrected, sequence.ground_truth, json);
   if (capture) {
-    recorder.finish(tracker);
-    json["perspectives"] = recorder.light_field().perspectives().size();
-    std::printf("%zu perspectives in %s\n", recorder.light_field().perspectives().size(),
-                options.capture->c_str());
+    finish_capture(*options.capture, recorder, tracker, json);
   }
   if (options.json) {
     write_json(*options.json, json);

@@ -15,7 +15,7 @@ TEST(ButtonScript, ReadsPressesAndComments) {
   const testing::TempDir dir;
   const auto file =
       dir.write("presses.txt", "# what the thumb does\n\n1.5 main\n2 wipe long # oh\n");
-  const auto events = read_button_script(file);
+  const auto events = read_button_script(file, 0.6);
   Gestures gestures(0.6);
   std::vector<Gesture> told;
   for (const auto& event : events) {
@@ -38,7 +38,7 @@ class BadButtonScript : public ::testing::TestWithParam<BadScript> {};
 TEST_P(BadButtonScript, IsRefusedWithFileAndLine) {
   const testing::TempDir dir;
   const auto file = dir.write("presses.txt", GetParam().content);
-  EXPECT_THAT(testing::message_of([&] { read_button_script(file); }),
+  EXPECT_THAT(testing::message_of([&] { read_button_script(file, 0.6); }),
               HasSubstr(file.string() + GetParam().complaint));
 }
 
@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(
                       BadScript{"2 main\n1 main\n", ":2: the time goes back"}));
 
 TEST(ButtonScript, NamesAMissingFile) {
-  EXPECT_THAT(testing::message_of([] { read_button_script("/nowhere/presses.txt"); }),
+  EXPECT_THAT(testing::message_of([] { read_button_script("/nowhere/presses.txt", 0.6); }),
               HasSubstr("/nowhere/presses.txt: cannot be opened"));
 }
 

@@ -2,6 +2,7 @@
 // pressed by a script, and what ends up on disk and on the screen is looked at.
 
 #include <gtest/gtest.h>
+#include <sys/mount.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -11,6 +12,7 @@
 
 #include "app/button_script.h"
 #include "app/loop.h"
+#include "config/error.h"
 #include "hal/offscreen/offscreen_display.h"
 #include "hal/scripted/scripted_buttons.h"
 #include "hal/sim/sim_camera.h"
@@ -33,17 +35,18 @@ struct TimedPress {
   Gesture gesture;
 };
 
-/// One box and its run.
+/// One box and its run; captures go into `captures`.
 class Run {
  public:
-  explicit Run(const std::vector<TimedPress>& presses) {
+  Run(const std::vector<TimedPress>& presses, const std::filesystem::path& captures) {
     config_.loop.rate_hz = 15.0;
     config_.capture.threshold_deg = 3.0;
     devices_.clock = std::make_unique<hal::VirtualClock>();
     devices_.camera = std::make_unique<hal::SimCamera>(hal::load_scene(kScene), *devices_.clock);
     std::vector<hal::ButtonEvent> events;
     for (const TimedPress& press : presses) {
-      for (const auto& event : press_at(press.time_s, press.gesture)) {
+      for (const auto& event :
+           press_at(press.time_s, press.gesture, config_.controls.long_press_s)) {
         events.push_back(event);
       }
     }
@@ -53,7 +56,7 @@ class Run {
     devices_.display = std::move(display);
     devices_.display->make_current();
     devices_.camera->start();
-    loop_ = std::make_unique<Loop>(devices_, config_, dir_.path(), kLockstep);
+    loop_ = std::make_unique<Loop>(devices_, config_, captures, kLockstep);
   }
 
   void until(double time_s) {
@@ -62,11 +65,9 @@ class Run {
 
   Loop& loop() { return *loop_; }
   hal::Image screen() const { return screen_->read_back(); }
-  const TempDir& dir() const { return dir_; }
   std::size_t views() const { return loop_->recorder().light_field().perspectives().size(); }
 
  private:
-  TempDir dir_;
   config::Config config_;
   Devices devices_;
   const hal::OffscreenDisplay* screen_ = nullptr;
@@ -100,7 +101,8 @@ const std::vector<TimedPress> kCapture = {
 };
 
 TEST(Box, AWalkAroundASubjectBecomesALightFieldOnTheScreen) {
-  Run run(kCapture);
+  const TempDir dir;
+  Run run(kCapture, dir.path());
   run.until(1.9);
   EXPECT_EQ(run.loop().mode(), ModeId::Subject) << run.loop().picture().advice;
   run.until(6.3);
@@ -112,7 +114,7 @@ TEST(Box, AWalkAroundASubjectBecomesALightFieldOnTheScreen) {
   EXPECT_GT(mean_brightness(run.screen()), 0.5 * mean_brightness(live));
 
   run.loop().finish();
-  const auto capture = lightfield::load_capture(run.dir() / "capture-0001");
+  const auto capture = lightfield::load_capture(dir / "capture-0001");
   EXPECT_EQ(capture.light_field.perspectives().size(), run.views());
   EXPECT_FALSE(capture.points.empty());
 }
@@ -120,10 +122,11 @@ TEST(Box, AWalkAroundASubjectBecomesALightFieldOnTheScreen) {
 TEST(Box, TwoRunsLeaveTheSameBytes) {
   std::map<std::string, std::string> first;
   for (int i = 0; i < 2; ++i) {
-    Run run(kCapture);
+    const TempDir dir;
+    Run run(kCapture, dir.path());
     run.until(4.5);
     run.loop().finish();
-    const auto files = contents(run.dir().path());
+    const auto files = contents(dir.path());
     ASSERT_GT(files.size(), 3U);
     if (i == 0) {
       first = files;
@@ -131,6 +134,40 @@ TEST(Box, TwoRunsLeaveTheSameBytes) {
       EXPECT_TRUE(files == first);
     }
   }
+}
+
+/// A file system with little room, while the object lives.
+class SmallDisk {
+ public:
+  explicit SmallDisk(const char* size)
+      : mounted_(mount("tmpfs", dir_.path().c_str(), "tmpfs", 0, size) == 0) {}
+  ~SmallDisk() {
+    if (mounted_) {
+      umount2(dir_.path().c_str(), MNT_DETACH);
+    }
+  }
+  bool mounted() const { return mounted_; }
+  const std::filesystem::path& path() const { return dir_.path(); }
+
+ private:
+  TempDir dir_;
+  bool mounted_;
+};
+
+TEST(Box, FullDiskIsSaidOnTheScreenAndWhatIsCompleteStaysLoadable) {
+  const SmallDisk disk("size=150k");
+  if (!disk.mounted()) {
+    GTEST_SKIP() << "mounting a small file system needs root";
+  }
+  Run run(kCapture, disk.path());
+  run.until(6.3);
+  EXPECT_EQ(run.loop().mode(), ModeId::Capture);
+  ASSERT_EQ(run.loop().picture().alerts.size(), 1U);
+  EXPECT_NE(run.loop().picture().alerts[0].find(disk.path().string()), std::string::npos);
+  const auto capture = lightfield::load_capture(disk.path() / "capture-0001");
+  EXPECT_GE(capture.light_field.perspectives().size(), 1U);
+  EXPECT_LT(capture.light_field.perspectives().size(), run.views()) << "recording went on";
+  EXPECT_THROW(run.loop().finish(), config::InputError);
 }
 
 }  // namespace
