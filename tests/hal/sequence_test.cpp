@@ -114,8 +114,8 @@ TEST(BareVideo, WithCalibrationAssumesNothing) {
 
 TEST(FolderOfImages, AssumesFortyFiveDegreesAndTheOrderOfNames) {
   const TempDir dir;
-  for (const int i : {3, 0, 1, 2}) {
-    write_png(dir / ("b" + std::to_string(i) + ".PNG"), Recording::picture(i));
+  for (const char* name : {"b3.PNG", "b0.PNG", "b1.PNG", "b2.PNG"}) {
+    write_png(dir / name, Recording::picture(0));
   }
   dir.write("readme.txt", "not a picture");
   const Sequence sequence = open_sequence(dir.path());
