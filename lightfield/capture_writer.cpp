@@ -1,10 +1,20 @@
 #include "lightfield/capture_writer.h"
 
+#include "config/error.h"
 #include "hal/image_io.h"
 #include "lightfield/points_file.h"
 #include "lightfield/transforms.h"
 
 namespace lumibox::lightfield {
+namespace {
+
+/// JSON has no NaN: one bad pose written would make the whole capture unreadable.
+void require_finite(int id, const geometry::Pose& pose) {
+  if (pose.rotation.coeffs().allFinite() && pose.translation.allFinite()) return;
+  throw config::InputError("the pose of perspective " + std::to_string(id) + " is not finite");
+}
+
+}  // namespace
 
 CaptureWriter::CaptureWriter(std::filesystem::path folder, int jpeg_quality, DurableFiles files)
     : folder_(std::move(folder)), jpeg_quality_(jpeg_quality), files_(std::move(files)) {
@@ -23,6 +33,8 @@ void CaptureWriter::put(const Perspective& perspective) {
 }
 
 void CaptureWriter::add(const Perspective& perspective) {
+  require_finite(perspective.id, perspective.world_from_camera);
+  require_finite(perspective.id, perspective.keyframe_from_camera);
   const std::string file = picture_file(perspective.id);
   files_.write(folder_ / file, hal::encode_jpeg(*perspective.color, jpeg_quality_));
   pictures_.insert(file);
@@ -46,6 +58,7 @@ void CaptureWriter::set_subject(const Sphere& sphere) {
 void CaptureWriter::set_pose(int id, const geometry::Pose& world_from_camera) {
   const auto found = named_.find(id);
   if (found == named_.end()) return;
+  require_finite(id, world_from_camera);
   commit();  // likewise
   found->second.world_from_camera = world_from_camera;
   moved_ = true;

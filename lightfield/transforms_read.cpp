@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Rotations of ours are exact to rounding; those of others were often printed with few digits.
-constexpr double kOwnRotationTolerance = 1e-9;
+constexpr double kOwnRotationTolerance = 1e-6;
 constexpr double kForeignRotationTolerance = 1e-2;
 
 /// Far beyond any clock (146 years), and arithmetic on times cannot overflow.
@@ -129,8 +129,9 @@ Sphere read_sphere(const JsonValue& subject) {
 /// The text at `value`, a path of a file in the same folder or below.
 std::string read_path(const JsonValue& value) {
   std::string path = value.text();
-  if (!stays_inside(path))
+  if (!stays_inside(path)) {
     value.fail("is \"" + printable(path) + "\", expected a path inside the folder");
+  }
   return path;
 }
 

@@ -176,5 +176,16 @@ TEST(Store, FolderThatGoesAwayIsAnErrorNotACrash) {
   }
 }
 
+TEST(Store, PoseThatIsNotFiniteNeverReachesTheDisk) {
+  const TemporaryFolder folder;
+  Store store(folder / "c", 90, Writing::Inline);
+  store.add(make_perspective(0, kSphere.center, small_camera()));
+  geometry::Pose pose;
+  pose.translation.x() = NAN;
+  store.set_pose(0, pose);
+  EXPECT_THAT(input_error([&] { store.flush(); }), HasSubstr("perspective 0 is not finite"));
+  EXPECT_EQ(load_capture(folder / "c").light_field.perspectives().size(), 1U);
+}
+
 }  // namespace
 }  // namespace lumibox::lightfield
