@@ -84,19 +84,24 @@ TEST_F(RendererTest, AgreesWithTheReference) {
   }
 }
 
-// The horizon of a tilted plane runs through the picture: above it nothing may be drawn, though
-// the homography maps those pixels into the source too.
+// The horizon of a tilted plane runs through the picture: beyond it nothing may be drawn, though
+// the homography maps those pixels into the source too, behind its back.
 TEST_F(RendererTest, StopsAtThePlanesHorizon) {
-  const test::World world = test::textured_ball(1.0);
-  const geometry::Pose source = look_at({0.0, -4.0, -0.5}, {0, 0, 0});
-  const auto perspective = test::photograph_perspective(0, world, make_camera(160, 120), source);
-  const View view{make_camera(160, 120), look_at({0.0, -0.4, -3.0}, {0.0, -0.5, 0.0})};
+  config::CameraProfile wide_angle = make_camera(160, 120).profile();
+  wide_angle.fx = wide_angle.fy = 50.0;
+  const Eigen::Vector3d towards(0.985, 0.0, 0.174);  // 80 degrees from the view's axis
+  const auto source =
+      test::photograph_perspective(0, test::textured_ball(1.0), geometry::Camera(wide_angle),
+                                   look_at({0.1, 0.0, 0.0}, Eigen::Vector3d(towards)));
+  const View view{make_camera(160, 120), look_at({0, 0, 0}, {0, 0, 1})};
   for (const Aperture aperture : {Aperture::Small, Aperture::Wide}) {
     Settings settings;
     settings.aperture = aperture;
-    EXPECT_LT(mean_difference(draw(view, {perspective}, settings),
-                              render_reference(view, {perspective}, settings)),
-              0.5);
+    settings.focus = Eigen::Vector3d(-1.892, 0.0, -0.652);  // behind both, off both axes
+    ASSERT_EQ(plan_view(view, {source}, settings).size(), 1U);
+    EXPECT_LT(
+        mean_difference(draw(view, {source}, settings), render_reference(view, {source}, settings)),
+        0.5);
   }
 }
 
