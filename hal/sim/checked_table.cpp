@@ -15,7 +15,9 @@ std::string show(double value) {
   return out.str();
 }
 
-std::string show(Range range) { return show(range.min) + " to " + show(range.max); }
+std::string show(Range range) {
+  return show(range.min) + " to " + show(range.max);
+}
 
 template <typename Names>
 std::string joined(const Names& names) {
@@ -35,7 +37,9 @@ std::string header(std::string_view key, std::string_view open, std::string_view
   return text;
 }
 
-int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
+int line_of(const toml::node& node) {
+  return static_cast<int>(node.source().begin.line);
+}
 
 }  // namespace
 
@@ -51,7 +55,9 @@ const toml::node* CheckedTable::find(std::string_view key) {
   return table_->get(key);
 }
 
-bool CheckedTable::has(std::string_view key) { return find(key) != nullptr; }
+bool CheckedTable::has(std::string_view key) {
+  return find(key) != nullptr;
+}
 
 double CheckedTable::number(std::string_view key, Range range, std::optional<double> fallback) {
   const toml::node* node = find(key);
@@ -140,7 +146,8 @@ std::vector<Eigen::VectorXd> CheckedTable::rows(std::string_view key, int count,
   const toml::node* node = find(key);
   if (node == nullptr) return {};
   const toml::array* array = node->as_array();
-  if (array == nullptr) fail(key, "expected a list of lists of " + std::to_string(count) + " numbers");
+  if (array == nullptr)
+    fail(key, "expected a list of lists of " + std::to_string(count) + " numbers");
   std::vector<Eigen::VectorXd> result;
   for (const toml::node& element : *array) {
     const std::vector<double> values = number_list(key, element, count, range);

@@ -28,7 +28,9 @@ const std::array<float, 256>& linear_from_srgb_byte_table();
 std::uint8_t srgb_byte_from_linear(float linear);
 
 /// Relative luminance of linear light (Rec. 709).
-inline float luminance(const Color& c) { return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]; }
+inline float luminance(const Color& c) {
+  return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2];
+}
 
 /// A picture in linear light, rows from the top.
 struct LinearImage {

@@ -21,8 +21,8 @@ enum class Effect {
   DroppedFrames,
 };
 constexpr std::array<std::string_view, 11> kEffects{
-    "lens_distortion", "rolling_shutter", "motion_blur",    "vignetting",
-    "auto_exposure",   "sensor_noise",    "reflection",     "refraction",
+    "lens_distortion", "rolling_shutter",  "motion_blur",   "vignetting",
+    "auto_exposure",   "sensor_noise",     "reflection",    "refraction",
     "moving_subject",  "passing_occluder", "dropped_frames"};
 
 std::uint64_t read_seed(CheckedTable& table) {
@@ -149,8 +149,8 @@ WobbleSpec read_wobble(CheckedTable& table, const WobbleSpec& fallback) {
   wobble.position_mm = table.number("position_mm", {0.0, 1e4}, 0.0);
   wobble.rotation_deg = table.number("rotation_deg", {0.0, 90.0}, 0.0);
   wobble.min_hz = table.number("min_hz", {1e-3, 100.0}, fallback.min_hz);
-  wobble.max_hz = table.number("max_hz", {wobble.min_hz, 100.0},
-                               std::max(wobble.min_hz, fallback.max_hz));
+  wobble.max_hz =
+      table.number("max_hz", {wobble.min_hz, 100.0}, std::max(wobble.min_hz, fallback.max_hz));
   wobble.seed = read_seed(table);
   return wobble;
 }

@@ -55,9 +55,8 @@ void intersect(const RTCIntersectFunctionNArguments* args) {
     if (args->valid[i] == 0) continue;
     const Eigen::Vector3f origin = ray_origin(rays, args->N, i);
     const Eigen::Vector3f direction = ray_direction(rays, args->N, i);
-    const std::optional<float> t =
-        first_crossing(body, origin, direction, RTCRayN_tnear(rays, args->N, i),
-                       RTCRayN_tfar(rays, args->N, i));
+    const std::optional<float> t = first_crossing(
+        body, origin, direction, RTCRayN_tnear(rays, args->N, i), RTCRayN_tfar(rays, args->N, i));
     if (!t) continue;
     const Eigen::Vector3f normal = origin + *t * direction - body.center;
     RTCRayN_tfar(rays, args->N, i) = *t;
@@ -76,11 +75,11 @@ void occluded(const RTCOccludedFunctionNArguments* args) {
   const Body& body = *static_cast<const Body*>(args->geometryUserPtr);
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
-    const bool hit = first_crossing(body, ray_origin(args->ray, args->N, i),
-                                    ray_direction(args->ray, args->N, i),
-                                    RTCRayN_tnear(args->ray, args->N, i),
-                                    RTCRayN_tfar(args->ray, args->N, i))
-                         .has_value();
+    const bool hit =
+        first_crossing(body, ray_origin(args->ray, args->N, i),
+                       ray_direction(args->ray, args->N, i), RTCRayN_tnear(args->ray, args->N, i),
+                       RTCRayN_tfar(args->ray, args->N, i))
+            .has_value();
     if (hit) RTCRayN_tfar(args->ray, args->N, i) = -std::numeric_limits<float>::infinity();
   }
 }

@@ -24,9 +24,8 @@ Station station(const Eigen::Vector3d& position, const Eigen::Vector3d& target) 
 
 /// The orbit as a serpentine on a sphere, walked at constant speed; `progress` in [0, 1].
 Station orbit_station(const OrbitSpec& orbit, const Eigen::Vector3d& target, double progress) {
-  const double climb = orbit.rows > 1 ? (orbit.elevation_deg[1] - orbit.elevation_deg[0]) /
-                                            (orbit.rows - 1)
-                                      : 0.0;
+  const double climb =
+      orbit.rows > 1 ? (orbit.elevation_deg[1] - orbit.elevation_deg[0]) / (orbit.rows - 1) : 0.0;
   const auto elevation = [&](int row) { return orbit.elevation_deg[0] + climb * row; };
   const double sweep = orbit.azimuth_deg[1] - orbit.azimuth_deg[0];
   const auto sweep_length = [&](int row) {
@@ -110,8 +109,8 @@ Wobble::Wobble(const WobbleSpec& spec) {
       // Slow movements are large, fast ones small.
       const double amplitude = 1.0 / hz;
       power += 0.5 * amplitude * amplitude;
-      waves_[axis].push_back({amplitude, 2.0 * std::numbers::pi * hz,
-                              random.uniform(0.0, 2.0 * std::numbers::pi)});
+      waves_[axis].push_back(
+          {amplitude, 2.0 * std::numbers::pi * hz, random.uniform(0.0, 2.0 * std::numbers::pi)});
     }
     for (Wave& wave : waves_[axis]) wave.amplitude *= rms / std::sqrt(power);
   }
@@ -138,8 +137,8 @@ HandPath::HandPath(const PathSpec& spec, double duration_s) : tremor_(spec.tremo
 
 geometry::Pose HandPath::world_from_camera(double time_s) const {
   // Uniform cubic B-spline: smooths the corners of the walk over a second.
-  const double at = std::clamp(time_s / knot_spacing_s_, 0.0,
-                               static_cast<double>(knots_.size() - 4));
+  const double at =
+      std::clamp(time_s / knot_spacing_s_, 0.0, static_cast<double>(knots_.size() - 4));
   const auto i = std::min(static_cast<std::size_t>(at), knots_.size() - 4);
   const double t = at - static_cast<double>(i);
   const double t2 = t * t;
@@ -152,8 +151,13 @@ geometry::Pose HandPath::world_from_camera(double time_s) const {
 }
 
 geometry::Pose look_at(const Eigen::Vector3d& position, const Eigen::Vector3d& target) {
-  const Eigen::Vector3d forward = (target - position).normalized();
-  const Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ()).normalized();
+  Eigen::Vector3d forward = target - position;
+  // A spline may touch what its keys avoid: no direction, or straight up or down.
+  if (forward.norm() < 1e-9) forward = Eigen::Vector3d::UnitY();
+  forward.normalize();
+  Eigen::Vector3d right = forward.cross(Eigen::Vector3d::UnitZ());
+  if (right.norm() < 1e-9) right = Eigen::Vector3d::UnitX();
+  right.normalize();
   Eigen::Matrix3d rotation;
   rotation << right, forward.cross(right), forward;
   return {rotation, position};

@@ -12,8 +12,8 @@ Vignetting::Vignetting(const VignettingSpec& spec, const config::CameraProfile& 
   };
   const double right = camera.width - 1;
   const double bottom = camera.height - 1;
-  const double farthest = std::max({radius2(0, 0), radius2(right, 0), radius2(0, bottom),
-                                    radius2(right, bottom)});
+  const double farthest =
+      std::max({radius2(0, 0), radius2(right, 0), radius2(0, bottom), radius2(right, bottom)});
   for (int y = 0; y < camera.height; ++y) {
     for (int x = 0; x < camera.width; ++x) {
       const double r2 = radius2(x, y) / farthest;

@@ -72,8 +72,7 @@ float open_sky(RTCScene scene, const Eigen::Vector3f& origin, const Eigen::Vecto
 float unshadowed(RTCScene scene, const LightSpec& light, const Eigen::Vector3f& origin,
                  const Incoming& incoming) {
   constexpr std::size_t kDirections = 2 * kPacket;
-  const float spread =
-      std::tan(static_cast<float>(light.softness_deg * std::numbers::pi / 180.0));
+  const float spread = std::tan(static_cast<float>(light.softness_deg * std::numbers::pi / 180.0));
   const auto [u, v] = tangents(incoming.towards_light);
   float visible = 0.0f;
   std::array<Eigen::Vector3f, kPacket> directions;
@@ -115,7 +114,8 @@ Color baked_light(RTCScene scene, const std::vector<LightSpec>& lights,
     const Incoming incoming = incoming_light(light, point);
     const float cosine = normal.dot(incoming.towards_light);
     if (cosine <= 0.0f) continue;
-    total += incoming.color * cosine * (shadowed ? unshadowed(scene, light, origin, incoming) : 1.0f);
+    total +=
+        incoming.color * cosine * (shadowed ? unshadowed(scene, light, origin, incoming) : 1.0f);
   }
   return total;
 }

@@ -74,8 +74,7 @@ std::vector<float> texture_density(const Mesh& mesh) {
     const Eigen::Matrix2f jacobian = steps * edges.inverse();
     const float half_trace = 0.5f * jacobian.squaredNorm();
     const float determinant = jacobian.determinant();
-    const float discriminant =
-        std::max(0.0f, half_trace * half_trace - determinant * determinant);
+    const float discriminant = std::max(0.0f, half_trace * half_trace - determinant * determinant);
     density.push_back(std::sqrt(half_trace + std::sqrt(discriminant)));  // largest singular value
   }
   return density;

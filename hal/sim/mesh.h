@@ -14,8 +14,8 @@ namespace lumibox::hal::sim {
 /// the shape can be unrolled.
 struct Mesh {
   std::vector<Eigen::Vector3f> positions;
-  std::vector<Eigen::Vector3f> normals;  ///< unit, outwards; one per position
-  std::vector<Eigen::Vector2f> uv;       ///< one per position
+  std::vector<Eigen::Vector3f> normals;                 ///< unit, outwards; one per position
+  std::vector<Eigen::Vector2f> uv;                      ///< one per position
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise from outside
 };
 

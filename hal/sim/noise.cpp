@@ -35,7 +35,8 @@ void add_octave(std::vector<float>& grid, int width, int height, int cells_x, in
   std::vector<int> left(static_cast<std::size_t>(width));
   std::vector<float> blend(static_cast<std::size_t>(width));
   for (int x = 0; x < width; ++x) {
-    const float at = static_cast<float>(x) * static_cast<float>(cells_x) / static_cast<float>(width);
+    const float at =
+        static_cast<float>(x) * static_cast<float>(cells_x) / static_cast<float>(width);
     left[static_cast<std::size_t>(x)] = static_cast<int>(at);
     blend[static_cast<std::size_t>(x)] = smoothstep(at - std::floor(at));
   }

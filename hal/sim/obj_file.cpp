@@ -113,6 +113,8 @@ class ObjReader {
 
 }  // namespace
 
-Mesh read_obj(const std::filesystem::path& file) { return ObjReader(file).read(); }
+Mesh read_obj(const std::filesystem::path& file) {
+  return ObjReader(file).read();
+}
 
 }  // namespace lumibox::hal::sim

@@ -2,44 +2,13 @@
 
 #include <numbers>
 
-#include "hal/sim/canvas.h"
 #include "hal/sim/noise.h"
-#include "hal/sim/random.h"
+#include "hal/sim/pattern_tools.h"
 
 namespace lumibox::hal::sim {
 namespace {
 
 using Eigen::Vector2d;
-
-const Color& pick(const std::vector<Color>& palette, Random& random) {
-  return palette[static_cast<std::size_t>(random.below(static_cast<int>(palette.size())))];
-}
-
-Color shade(const Color& color, double factor) {
-  return (color * static_cast<float>(factor)).max(0.0f).min(1.0f);
-}
-
-/// How many cells fit across; at least one.
-int count(double extent, double cell) {
-  return std::max(1, static_cast<int>(std::lround(extent / cell)));
-}
-
-/// A made-up letter: three to five strokes between the points of a 3 x 4 grid.
-void glyph(Canvas& canvas, const Vector2d& corner, double height, const Color& ink,
-           Random& random) {
-  const double step = height / 3.0;
-  const int strokes = 3 + random.below(3);
-  int x = random.below(3);
-  int y = random.below(4);
-  for (int i = 0; i < strokes; ++i) {
-    const int nx = random.below(3);
-    const int ny = random.below(4);
-    canvas.stroke(corner + step * Vector2d(0.8 * x, y), corner + step * Vector2d(0.8 * nx, ny),
-                  0.16 * height, ink);
-    x = nx;
-    y = ny;
-  }
-}
 
 void text_line(Canvas& canvas, Vector2d corner, double height, double width, const Color& ink,
                Random& random) {
@@ -100,8 +69,8 @@ Canvas wood(const TextureSpec& spec, Random& random) {
   // Grain: noise forty times longer than wide.
   const int across = planks * 6;
   const int along = std::max(1, across / 40);
-  const auto grain = fractal_noise_tile(canvas.width(), canvas.height(), along, across, 6, 0.75f,
-                                        random.bits());
+  const auto grain =
+      fractal_noise_tile(canvas.width(), canvas.height(), along, across, 6, 0.75f, random.bits());
   std::vector<Color> tones;
   for (int i = 0; i < planks; ++i) {
     tones.push_back(shade(pick(spec.palette, random), random.uniform(0.8, 1.1)));
@@ -153,107 +122,6 @@ Canvas checker(const TextureSpec& spec, Random& random) {
   return canvas;
 }
 
-/// Running bond; the first colour is the mortar.
-Canvas bricks(const TextureSpec& spec, Random& random) {
-  Canvas canvas(spec, spec.palette.front());
-  const int columns = count(spec.tile_m.x(), spec.cell_m);
-  const int rows = 2 * count(spec.tile_m.y(), 0.7 * spec.cell_m);
-  const Vector2d cell(spec.tile_m.x() / columns, spec.tile_m.y() / rows);
-  const double joint = 0.12 * cell.y();
-  const std::vector<Color> clays(spec.palette.size() > 1 ? spec.palette.begin() + 1
-                                                         : spec.palette.begin(),
-                                 spec.palette.end());
-  for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) {
-      const double shift = row % 2 == 0 ? 0.5 : 1.0;
-      canvas.rectangle({(column + shift) * cell.x(), (row + 0.5) * cell.y()},
-                       cell - Vector2d(joint, joint), random.uniform(-0.01, 0.01),
-                       shade(pick(clays, random), random.uniform(0.7, 1.2)));
-    }
-  }
-  return canvas;
-}
-
-/// One window with frame, panes, curtain or blind, sill and lintel.
-void window(Canvas& canvas, const Vector2d& center, const Vector2d& size, const TextureSpec& spec,
-            Random& random) {
-  const Color frame = shade(spec.palette.front(), random.uniform(1.15, 1.3));
-  const Color glass = shade(Color(0.20f, 0.25f, 0.32f), random.uniform(0.6, 1.6));
-  canvas.rectangle(center, 1.12 * size, 0.0, shade(spec.palette.front(), 0.6));
-  canvas.rectangle(center, size, 0.0, frame);
-  for (const double x : {-0.25, 0.25}) {
-    for (const double y : {-0.22, 0.22}) {
-      canvas.rectangle(center + size.cwiseProduct(Vector2d(x, y)),
-                       size.cwiseProduct(Vector2d(0.42, 0.38)), 0.0,
-                       shade(glass, random.uniform(0.8, 1.25)));
-    }
-  }
-  if (random.uniform() < 0.5) {  // a blind let down to some height, slat by slat
-    const double depth = random.uniform(0.2, 0.9);
-    const Color slat = shade(pick(spec.palette, random), random.uniform(0.8, 1.2));
-    for (double y = -0.45; y < -0.45 + 0.9 * depth; y += 0.075) {
-      canvas.rectangle(center + size.cwiseProduct(Vector2d(0.0, y)),
-                       size.cwiseProduct(Vector2d(0.9, 0.05)), 0.0, slat);
-    }
-  }
-  canvas.rectangle(center + Vector2d(0.0, 0.57 * size.y()),
-                   size.cwiseProduct(Vector2d(1.3, 0.08)), 0.0, shade(frame, 0.95));
-  canvas.rectangle(center - Vector2d(0.0, 0.6 * size.y()), size.cwiseProduct(Vector2d(1.2, 0.1)),
-                   0.0, shade(pick(spec.palette, random), 0.8));
-}
-
-/// Storeys of windows on masonry; cell_m is the distance between windows.
-Canvas facade(const TextureSpec& spec, Random& random) {
-  TextureSpec masonry = spec;
-  masonry.cell_m = 0.16 * spec.cell_m;
-  Canvas canvas = bricks(masonry, random);
-  const int columns = count(spec.tile_m.x(), spec.cell_m);
-  const int floors = count(spec.tile_m.y(), 1.2 * spec.cell_m);
-  const Vector2d cell(spec.tile_m.x() / columns, spec.tile_m.y() / floors);
-  for (int floor = 0; floor < floors; ++floor) {
-    canvas.rectangle({0.5 * spec.tile_m.x(), floor * cell.y()},
-                     {spec.tile_m.x(), 0.07 * cell.y()}, 0.0, shade(spec.palette.front(), 1.1));
-    canvas.rectangle({0.5 * spec.tile_m.x(), (floor + 0.045) * cell.y()},
-                     {spec.tile_m.x(), 0.02 * cell.y()}, 0.0, shade(spec.palette.front(), 0.55));
-    for (int column = 0; column < columns; ++column) {
-      window(canvas, {(column + 0.5) * cell.x(), (floor + 0.52) * cell.y()},
-             cell.cwiseProduct(Vector2d(0.44, 0.5)), spec, random);
-    }
-  }
-  return canvas;
-}
-
-/// Shelves of book spines with titles; cell_m is a book's height.
-Canvas books(const TextureSpec& spec, Random& random) {
-  Canvas canvas(spec, shade(spec.palette.front(), 0.25));
-  const int shelves = count(spec.tile_m.y(), 1.25 * spec.cell_m);
-  const double shelf_m = spec.tile_m.y() / shelves;
-  for (int shelf = 0; shelf < shelves; ++shelf) {
-    const double floor = (shelf + 0.93) * shelf_m;
-    double x = 0.0;
-    while (x < spec.tile_m.x()) {
-      const double width = std::min(spec.cell_m * random.uniform(0.08, 0.26), spec.tile_m.x() - x);
-      const double height = spec.cell_m * random.uniform(0.75, 1.05);
-      const Color cover = shade(pick(spec.palette, random), random.uniform(0.55, 1.15));
-      const Vector2d center(x + 0.5 * width, floor - 0.5 * height);
-      canvas.rectangle(center, {0.94 * width, height}, 0.0, cover);
-      const Color ink = luminance(cover) > 0.4f ? shade(cover, 0.25) : Color(0.92f, 0.88f, 0.7f);
-      for (const double band : {-0.42, -0.36, 0.4}) {
-        canvas.rectangle(center + Vector2d(0.0, band * height), {0.94 * width, 0.015 * height}, 0.0,
-                         ink);
-      }
-      const double letter = 0.5 * width;
-      for (double y = -0.28; y < random.uniform(-0.1, 0.3); y += 1.4 * letter / height) {
-        glyph(canvas, center + Vector2d(-0.35 * letter, y * height), letter, ink, random);
-      }
-      x += width;
-    }
-    canvas.rectangle({0.5 * spec.tile_m.x(), (shelf + 0.965) * shelf_m},
-                     {spec.tile_m.x(), 0.07 * shelf_m}, 0.0, shade(spec.palette.front(), 0.9));
-  }
-  return canvas;
-}
-
 /// Woven stripes in both directions.
 Canvas plaid(const TextureSpec& spec, Random& random) {
   Canvas canvas(spec, spec.palette.front());
@@ -267,10 +135,10 @@ Canvas plaid(const TextureSpec& spec, Random& random) {
   const std::vector<Color> weft = stripes(spec.tile_m.y());
   for (int y = 0; y < canvas.height(); ++y) {
     for (int x = 0; x < canvas.width(); ++x) {
-      const auto i = static_cast<std::size_t>(x) * warp.size() /
-                     static_cast<std::size_t>(canvas.width());
-      const auto j = static_cast<std::size_t>(y) * weft.size() /
-                     static_cast<std::size_t>(canvas.height());
+      const auto i =
+          static_cast<std::size_t>(x) * warp.size() / static_cast<std::size_t>(canvas.width());
+      const auto j =
+          static_cast<std::size_t>(y) * weft.size() / static_cast<std::size_t>(canvas.height());
       const float over = (x / 2 + y / 2) % 2 == 0 ? 0.7f : 0.3f;
       canvas.at(x, y) = over * warp[i] + (1.0f - over) * weft[j];
     }
@@ -281,10 +149,9 @@ Canvas plaid(const TextureSpec& spec, Random& random) {
 /// Clouds that run through the palette, as in stone or plaster.
 Canvas clouds(const TextureSpec& spec, Random& random) {
   Canvas canvas(spec, spec.palette.front());
-  const auto noise = fractal_noise_tile(canvas.width(), canvas.height(),
-                                        count(spec.tile_m.x(), spec.cell_m),
-                                        count(spec.tile_m.y(), spec.cell_m), 8, 0.65f,
-                                        random.bits());
+  const auto noise =
+      fractal_noise_tile(canvas.width(), canvas.height(), count(spec.tile_m.x(), spec.cell_m),
+                         count(spec.tile_m.y(), spec.cell_m), 8, 0.65f, random.bits());
   const auto last = static_cast<float>(spec.palette.size() - 1);
   std::size_t texel = 0;
   for (int y = 0; y < canvas.height(); ++y) {
@@ -309,13 +176,13 @@ Canvas paint_pattern(const TextureSpec& spec, Random& random) {
     case Pattern::Checker:
       return checker(spec, random);
     case Pattern::Bricks:
-      return bricks(spec, random);
+      return paint_bricks(spec, random);
     case Pattern::Facade:
-      return facade(spec, random);
+      return paint_facade(spec, random);
     case Pattern::Poster:
       return poster(spec, random);
     case Pattern::Books:
-      return books(spec, random);
+      return paint_books(spec, random);
     case Pattern::Plaid:
       return plaid(spec, random);
     case Pattern::Plain:
@@ -328,9 +195,9 @@ Canvas paint_pattern(const TextureSpec& spec, Random& random) {
 void add_grain(Canvas& canvas, const TextureSpec& spec, Random& random) {
   if (spec.grain <= 0.0) return;
   const double coarsest = 0.25 * spec.cell_m;
-  const auto noise = fractal_noise_tile(canvas.width(), canvas.height(),
-                                        count(spec.tile_m.x(), coarsest),
-                                        count(spec.tile_m.y(), coarsest), 8, 0.9f, random.bits());
+  const auto noise =
+      fractal_noise_tile(canvas.width(), canvas.height(), count(spec.tile_m.x(), coarsest),
+                         count(spec.tile_m.y(), coarsest), 8, 0.9f, random.bits());
   std::size_t texel = 0;
   for (int y = 0; y < canvas.height(); ++y) {
     for (int x = 0; x < canvas.width(); ++x, ++texel) {
@@ -345,9 +212,8 @@ void add_grain(Canvas& canvas, const TextureSpec& spec, Random& random) {
     const double change = random.uniform() < 0.6 ? 1.0 - 1.6 * spec.grain : 1.0 + 1.6 * spec.grain;
     const int x = static_cast<int>(at.x() / canvas.size_m().x() * canvas.width());
     const int y = static_cast<int>(at.y() / canvas.size_m().y() * canvas.height());
-    const Color speck = shade(canvas.at(std::min(x, canvas.width() - 1),
-                                        std::min(y, canvas.height() - 1)),
-                              change);
+    const Color speck =
+        shade(canvas.at(std::min(x, canvas.width() - 1), std::min(y, canvas.height() - 1)), change);
     canvas.disc(at, radius, speck);
   }
 }

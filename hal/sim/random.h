@@ -36,9 +36,7 @@ class Random {
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
   /// In [0, count); count > 0.
-  int below(int count) {
-    return static_cast<int>(bits() % static_cast<std::uint64_t>(count));
-  }
+  int below(int count) { return static_cast<int>(bits() % static_cast<std::uint64_t>(count)); }
 
   /// Standard normal (Box and Muller, 1958).
   double normal() {

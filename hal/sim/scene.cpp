@@ -14,7 +14,9 @@ Scene::Scene(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
 Scene::~Scene() = default;
 
-const config::CameraProfile& Scene::profile() const { return impl_->spec.camera; }
+const config::CameraProfile& Scene::profile() const {
+  return impl_->spec.camera;
+}
 
 std::int64_t Scene::frame_count() const {
   const double frames = impl_->spec.duration_s * impl_->spec.camera.fps;
@@ -48,8 +50,7 @@ Image Scene::render_ideal(const geometry::Camera& camera, const geometry::Pose& 
 }
 
 std::shared_ptr<const Scene> load_scene(const std::filesystem::path& file) {
-  return std::make_shared<const Scene>(
-      std::make_unique<Scene::Impl>(sim::read_scene_file(file)));
+  return std::make_shared<const Scene>(std::make_unique<Scene::Impl>(sim::read_scene_file(file)));
 }
 
 }  // namespace lumibox::hal

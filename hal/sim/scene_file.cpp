@@ -49,8 +49,8 @@ TextureSpec read_texture(CheckedTable table) {
   texture.name = table.text("name");
   texture.pattern = static_cast<Pattern>(table.choice("pattern", kPatterns));
   texture.tile_m = table.numbers("tile_m", 2, kPositive, texture.tile_m);
-  const Eigen::VectorXd texels =
-      table.numbers("texels", 2, {1.0, 4096.0}, Eigen::Vector2d(texture.texels_x, texture.texels_y));
+  const Eigen::VectorXd texels = table.numbers("texels", 2, {1.0, 4096.0},
+                                               Eigen::Vector2d(texture.texels_x, texture.texels_y));
   texture.texels_x = static_cast<int>(texels[0]);
   texture.texels_y = static_cast<int>(texels[1]);
   for (const double side : texels) {
@@ -189,7 +189,8 @@ std::vector<KeyPose> read_keys(CheckedTable& path) {
     key.target = table.numbers("target", 3, {-1e4, 1e4});
     const Eigen::Vector3d sight = key.target - key.position;
     if (sight.head<2>().norm() < 1e-3 * std::max(sight.norm(), 1e-6)) {
-      table.fail("target", "expected a point that is neither the camera nor straight above or below");
+      table.fail("target",
+                 "expected a point that is neither the camera nor straight above or below");
     }
     if (!keys.empty() && key.time_s <= keys.back().time_s) {
       table.fail("time_s", "expected a time later than the key before");

@@ -19,11 +19,11 @@ enum class Pattern { Plain, Noise, Wood, Checker, Bricks, Facade, Poster, Books,
 struct TextureSpec {
   std::string name;
   Pattern pattern = Pattern::Plain;
-  Eigen::Vector2d tile_m{1.0, 1.0};              ///< size on the surface before it repeats
-  int texels_x = 1024;                           ///< powers of two
-  int texels_y = 1024;                           ///< powers of two
-  double cell_m = 0.1;                           ///< size of the pattern's largest element
-  double grain = 0.25;                           ///< contrast of the fine noise over it, 0..1
+  Eigen::Vector2d tile_m{1.0, 1.0};  ///< size on the surface before it repeats
+  int texels_x = 1024;               ///< powers of two
+  int texels_y = 1024;               ///< powers of two
+  double cell_m = 0.1;               ///< size of the pattern's largest element
+  double grain = 0.25;               ///< contrast of the fine noise over it, 0..1
   std::vector<Color> palette{Color(0.5f, 0.5f, 0.5f)};  ///< sRGB
   std::uint64_t seed = 1;
 };
@@ -61,14 +61,14 @@ struct LightSpec {
   Color color{1.0f, 1.0f, 1.0f};  ///< linear, times strength; irradiance / pi on a facing surface
   Eigen::Vector3d direction{0.0, 0.0, -1.0};  ///< the light travels, unit
   Eigen::Vector3d position{0.0, 0.0, 2.0};
-  double falloff_m = 1.0;      ///< point: distance at which it has its nominal strength
-  double reach_m = 0.5;        ///< ambient: surfaces nearer than this keep it away
-  double softness_deg = 3.0;   ///< half angle under which the light is seen
+  double falloff_m = 1.0;     ///< point: distance at which it has its nominal strength
+  double reach_m = 0.5;       ///< ambient: surfaces nearer than this keep it away
+  double softness_deg = 3.0;  ///< half angle under which the light is seen
   Shadows shadows = Shadows::None;
 };
 
 struct WobbleSpec {
-  double position_mm = 0.0;  ///< root mean square of each coordinate
+  double position_mm = 0.0;   ///< root mean square of each coordinate
   double rotation_deg = 0.0;  ///< root mean square about each axis
   double min_hz = 0.5;
   double max_hz = 8.0;
@@ -78,8 +78,8 @@ struct WobbleSpec {
 struct OrbitSpec {
   Eigen::Vector2d azimuth_deg{-60.0, 60.0};
   Eigen::Vector2d elevation_deg{10.0, 60.0};
-  int rows = 1;                          ///< sweeps, each at its own elevation
-  Eigen::Vector2d radius_m{0.7, 0.7};    ///< drifts between these
+  int rows = 1;                        ///< sweeps, each at its own elevation
+  Eigen::Vector2d radius_m{0.7, 0.7};  ///< drifts between these
 };
 
 struct KeyPose {
@@ -92,8 +92,8 @@ struct PathSpec {
   std::optional<OrbitSpec> orbit;  ///< otherwise the keys
   std::vector<KeyPose> keys;
   Eigen::Vector3d target = Eigen::Vector3d::Zero();  ///< of the orbit
-  double lead_in_s = 0.0;  ///< sideways motion before the walk
-  double lead_in_m = 0.0;  ///< its length
+  double lead_in_s = 0.0;                            ///< sideways motion before the walk
+  double lead_in_m = 0.0;                            ///< its length
   WobbleSpec tremor;
 };
 

@@ -103,7 +103,8 @@ void write_sequence(const Scene& scene, const fs::path& folder,
   TextFile list(folder / "rgb.txt");
   TextFile truth(folder / "groundtruth.txt");
   list.line() << "# timestamp file\n";
-  truth.line() << "# timestamp tx ty tz qx qy qz qw (world from camera; x right, y down, z forward)\n";
+  truth.line()
+      << "# timestamp tx ty tz qx qy qz qw (world from camera; x right, y down, z forward)\n";
 
   sim::FrameRenderer renderer(scene);
   SimCost cost;

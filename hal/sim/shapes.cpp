@@ -83,12 +83,12 @@ Mesh make_box(const ObjectSpec& spec) {
   const int ny = cells(spec.size.y(), longest, segments);
   const int nz = cells(spec.size.z(), longest, segments);
   Mesh mesh;
-  add_rectangle(mesh, {-h.x(), -h.y(), -h.z()}, x, z, nx, nz);   // front, -y
-  add_rectangle(mesh, {h.x(), h.y(), -h.z()}, -x, z, nx, nz);    // back, +y
-  add_rectangle(mesh, {h.x(), -h.y(), -h.z()}, y, z, ny, nz);    // right, +x
-  add_rectangle(mesh, {-h.x(), h.y(), -h.z()}, -y, z, ny, nz);   // left, -x
-  add_rectangle(mesh, {-h.x(), -h.y(), h.z()}, x, y, nx, ny);    // top, +z
-  add_rectangle(mesh, {-h.x(), h.y(), -h.z()}, x, -y, nx, ny);   // bottom, -z
+  add_rectangle(mesh, {-h.x(), -h.y(), -h.z()}, x, z, nx, nz);  // front, -y
+  add_rectangle(mesh, {h.x(), h.y(), -h.z()}, -x, z, nx, nz);   // back, +y
+  add_rectangle(mesh, {h.x(), -h.y(), -h.z()}, y, z, ny, nz);   // right, +x
+  add_rectangle(mesh, {-h.x(), h.y(), -h.z()}, -y, z, ny, nz);  // left, -x
+  add_rectangle(mesh, {-h.x(), -h.y(), h.z()}, x, y, nx, ny);   // top, +z
+  add_rectangle(mesh, {-h.x(), h.y(), -h.z()}, x, -y, nx, ny);  // bottom, -z
   return mesh;
 }
 

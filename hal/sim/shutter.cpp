@@ -4,10 +4,7 @@ namespace lumibox::hal::sim {
 namespace {
 
 geometry::Pose pose_at(const Stage& stage, double time_s, SimCost& cost) {
-  if (stage.world.moves()) {
-    stage.world.move_to(time_s);
-    ++cost.world_updates;
-  }
+  if (stage.world.move_to(time_s)) ++cost.world_updates;
   ++cost.poses;
   return stage.path.world_from_camera(time_s);
 }

@@ -92,13 +92,29 @@ SimCamera::SimCamera(std::shared_ptr<const Scene> scene, const Clock& clock)
 
 SimCamera::~SimCamera() = default;
 
-const config::CameraProfile& SimCamera::profile() const { return impl_->profile(); }
-void SimCamera::start() { impl_->start(); }
-void SimCamera::stop() { impl_->stop(); }
-std::optional<Frame> SimCamera::take_newest() { return impl_->take_newest(); }
-CameraState SimCamera::state() const { return impl_->state(); }
-CameraCounters SimCamera::counters() const { return impl_->counters(); }
-void SimCamera::lock_exposure(bool locked) { impl_->lock_exposure(locked); }
-const SimCost& SimCamera::last_cost() const { return impl_->last_cost(); }
+const config::CameraProfile& SimCamera::profile() const {
+  return impl_->profile();
+}
+void SimCamera::start() {
+  impl_->start();
+}
+void SimCamera::stop() {
+  impl_->stop();
+}
+std::optional<Frame> SimCamera::take_newest() {
+  return impl_->take_newest();
+}
+CameraState SimCamera::state() const {
+  return impl_->state();
+}
+CameraCounters SimCamera::counters() const {
+  return impl_->counters();
+}
+void SimCamera::lock_exposure(bool locked) {
+  impl_->lock_exposure(locked);
+}
+const SimCost& SimCamera::last_cost() const {
+  return impl_->last_cost();
+}
 
 }  // namespace lumibox::hal

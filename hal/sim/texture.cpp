@@ -1,6 +1,7 @@
 #include "hal/sim/texture.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace lumibox::hal::sim {
@@ -22,10 +23,26 @@ LinearImage halved(const LinearImage& fine) {
   return coarse;
 }
 
+/// std::floor is a library call on processors of the baseline; |x| must be below 2^31.
+int floor_to_int(float x) {
+  const int truncated = static_cast<int>(x);
+  return truncated - (x < static_cast<float>(truncated) ? 1 : 0);
+}
+
+/// Logarithm to base 2 of x >= 1, exact at powers of two and linear between: what blends levels
+/// evenly.
+float log2_piecewise(float x) {
+  const auto bits = std::bit_cast<std::uint32_t>(x);
+  const auto exponent = static_cast<int>(bits >> 23) - 127;
+  const float mantissa = std::bit_cast<float>((bits & 0x007fffffu) | 0x3f800000u);
+  return static_cast<float>(exponent) + (mantissa - 1.0f);
+}
+
 }  // namespace
 
 Texture::Texture(const LinearImage& base)
-    : base_texels_(static_cast<float>(std::max(base.width, base.height))) {
+    : linear_(linear_from_srgb_byte_table()),
+      base_texels_(static_cast<float>(std::max(base.width, base.height))) {
   LinearImage image = base;
   while (true) {
     Level level{image.width, image.height, {}};
@@ -41,18 +58,19 @@ Texture::Texture(const LinearImage& base)
 }
 
 Color Texture::bilinear(const Level& level, float u, float v) const {
-  const float x = (u - std::floor(u)) * static_cast<float>(level.width) - 0.5f;
-  const float y = (v - std::floor(v)) * static_cast<float>(level.height) - 0.5f;
-  const float floor_x = std::floor(x);
-  const float floor_y = std::floor(y);
-  const float fx = x - floor_x;
-  const float fy = y - floor_y;
-  const int x0 = static_cast<int>(floor_x) & (level.width - 1);
-  const int y0 = static_cast<int>(floor_y) & (level.height - 1);
-  const int x1 = (x0 + 1) & (level.width - 1);
-  const int y1 = (y0 + 1) & (level.height - 1);
+  const float x = u * static_cast<float>(level.width) - 0.5f;
+  const float y = v * static_cast<float>(level.height) - 0.5f;
+  const int column = floor_to_int(x);
+  const int row = floor_to_int(y);
+  const float fx = x - static_cast<float>(column);
+  const float fy = y - static_cast<float>(row);
+  // Sizes are powers of two: masking repeats the tile, to negative coordinates too.
+  const int x0 = column & (level.width - 1);
+  const int y0 = row & (level.height - 1);
+  const int x1 = (column + 1) & (level.width - 1);
+  const int y1 = (row + 1) & (level.height - 1);
 
-  const std::array<float, 256>& linear = linear_from_srgb_byte_table();
+  const float* linear = linear_.data();
   const auto* upper = level.texels.data() + static_cast<std::ptrdiff_t>(y0) * level.width;
   const auto* lower = level.texels.data() + static_cast<std::ptrdiff_t>(y1) * level.width;
   Color result;
@@ -65,8 +83,8 @@ Color Texture::bilinear(const Level& level, float u, float v) const {
 }
 
 Color Texture::sample(float u, float v, float footprint) const {
-  if (!(std::abs(u) < 1e6f && std::abs(v) < 1e6f)) return Color::Zero();
-  const float level = std::log2(std::max(footprint * base_texels_, 1.0f));
+  if (!(std::abs(u) < 1e5f && std::abs(v) < 1e5f)) return Color::Zero();
+  const float level = log2_piecewise(std::max(footprint * base_texels_, 1.0f));
   const auto last = levels_.size() - 1;
   const auto fine = static_cast<std::size_t>(level);
   if (fine >= last) return bilinear(levels_[last], u, v);

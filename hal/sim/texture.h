@@ -27,6 +27,7 @@ class Texture {
 
   Color bilinear(const Level& level, float u, float v) const;
 
+  const std::array<float, 256>& linear_;  ///< of an sRGB byte
   std::vector<Level> levels_;
   float base_texels_ = 1.0f;  ///< texels per tile at level 0, the denser direction
 };

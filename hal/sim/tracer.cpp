@@ -14,7 +14,7 @@ constexpr int kPacket = 8;
 
 /// A start off a surface, beyond the rounding of its coordinates, on the side `normal` points to.
 Eigen::Vector3f off_surface(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) {
-  return point + 2e-6f * std::max(1.0f, point.cwiseAbs().maxCoeff()) * 16.0f * normal;
+  return point + 3e-5f * std::max(1.0f, point.cwiseAbs().maxCoeff()) * normal;
 }
 
 /// Share of unpolarised light that a surface between media reflects (Fresnel); cosines of the
@@ -54,15 +54,11 @@ void Tracer::trace_rows(const geometry::Pose& world_from_camera, int begin, int 
   Cone cone;
   cone.origin = world_from_camera.translation.cast<float>();
   cone.spread = pixel_spread_;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   alignas(32) RTCRayHit8 packet{};
   alignas(32) std::array<int, kPacket> valid{};
 
   for (int y = begin; y < end; ++y) {
-    const Eigen::Vector2f* bearings =
-        bearings_.data() + static_cast<std::ptrdiff_t>(y) * width_;
+    const Eigen::Vector2f* bearings = bearings_.data() + static_cast<std::ptrdiff_t>(y) * width_;
     for (int x0 = 0; x0 < width_; x0 += kPacket) {
       for (int i = 0; i < kPacket; ++i) {
         const bool inside = x0 + i < width_ && !std::isnan(bearings[x0 + i].x());
@@ -81,7 +77,7 @@ void Tracer::trace_rows(const geometry::Pose& world_from_camera, int begin, int 
         packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
         ++rays_.camera;
       }
-      rtcIntersect8(valid.data(), world_.embree(), &context, &packet);
+      world_.intersect8(valid.data(), packet);
       for (int i = 0; i < kPacket && x0 + i < width_; ++i) {
         Color& pixel = image.row(y)[x0 + i];
         if (valid[static_cast<std::size_t>(i)] == 0) {
@@ -115,9 +111,7 @@ Color Tracer::radiance(const Cone& cone) {
   query.ray.tfar = std::numeric_limits<float>::infinity();
   query.ray.mask = ~0u;
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  rtcIntersect1(world_.embree(), &context, &query);
+  world_.intersect1(query);
   return shade(cone, query.hit, query.ray.tfar);
 }
 
@@ -176,10 +170,7 @@ Color Tracer::traced_light(const Eigen::Vector3f& point, const Eigen::Vector3f& 
     ray.dir_z = incoming.towards_light.z();
     ray.tfar = incoming.distance;
     ray.mask = ~0u;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(world_.embree(), &context, &ray);
-    if (ray.tfar >= 0.0f) total += incoming.color * cosine;
+    if (!world_.occluded1(ray)) total += incoming.color * cosine;
   }
   return total;
 }

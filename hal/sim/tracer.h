@@ -57,7 +57,8 @@ class Tracer {
   int refraction_depth_ = 0;
   int width_;
   float pixel_spread_;
-  std::vector<Eigen::Vector2f> bearings_;  ///< per pixel, on z = 1; NaN where the lens shows nothing
+  std::vector<Eigen::Vector2f>
+      bearings_;  ///< per pixel, on z = 1; NaN where the lens shows nothing
   RayCount rays_;
 };
 

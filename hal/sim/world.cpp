@@ -25,6 +25,7 @@ ObjectSpec occluder_object(const OccluderSpec& spec) {
   ObjectSpec object;
   object.shape = Shape::Sphere;
   object.size = spec.size;
+  object.segments = 24;
   object.world_from_object.translation = spec.from;
   object.texture = spec.texture;
   return object;
@@ -40,17 +41,16 @@ bool is_ball(const ObjectSpec& spec) {
 World::World(const SceneSpec& spec)
     // One thread: renders must not depend on how many cores there are.
     : device_(rtcNewDevice("threads=1,set_affinity=0"), rtcReleaseDevice),
-      scene_(nullptr, rtcReleaseScene) {
+      fixed_(nullptr, rtcReleaseScene),
+      moving_(nullptr, rtcReleaseScene) {
   if (!device_) throw config::InputError("Embree: cannot open its device on this processor");
-  scene_.reset(rtcNewScene(device_.get()));
+  fixed_.reset(rtcNewScene(device_.get()));
+  moving_.reset(rtcNewScene(device_.get()));
   // Rays must not slip through the edge between two triangles.
-  RTCSceneFlags flags = RTC_SCENE_FLAG_ROBUST;
-  const EffectSpecs& effects = spec.effects;
-  if (!effects.moving_subjects.empty() || !effects.occluders.empty()) {
-    flags = flags | RTC_SCENE_FLAG_DYNAMIC;
-  }
-  rtcSetSceneFlags(scene_.get(), flags);
+  rtcSetSceneFlags(fixed_.get(), RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(moving_.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC);
 
+  const EffectSpecs& effects = spec.effects;
   std::map<std::string, std::shared_ptr<const Motion>> motions;
   for (const MovingSubjectSpec& subject : effects.moving_subjects) {
     const auto motion = std::make_shared<Fidgeting>(subject);
@@ -63,7 +63,8 @@ World::World(const SceneSpec& spec)
   for (const OccluderSpec& occluder : effects.occluders) {
     add_object(occluder_object(occluder), std::make_shared<Passage>(occluder), spec.textures);
   }
-  rtcCommitScene(scene_.get());
+  rtcCommitScene(fixed_.get());
+  rtcCommitScene(moving_.get());
   bake(spec.lights);
 }
 
@@ -101,7 +102,7 @@ void World::add_exact_sphere(const ObjectSpec& spec) {
                                     rtcReleaseGeometry);
   set_exact_sphere(geometry.get(), &body);
   rtcCommitGeometry(geometry.get());
-  rtcAttachGeometryByID(scene_.get(), geometry.get(), static_cast<unsigned>(bodies_.size() - 1));
+  rtcAttachGeometryByID(fixed_.get(), geometry.get(), static_cast<unsigned>(bodies_.size() - 1));
 }
 
 void World::add_mesh(const ObjectSpec& spec, std::shared_ptr<const Motion> motion,
@@ -123,32 +124,53 @@ void World::add_mesh(const ObjectSpec& spec, std::shared_ptr<const Motion> motio
   const Owned<RTCGeometry> geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE),
                                     rtcReleaseGeometry);
   if (motion) rtcSetGeometryBuildQuality(geometry.get(), RTC_BUILD_QUALITY_REFIT);
-  void* positions = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0,
-                                            RTC_FORMAT_FLOAT3, sizeof(Eigen::Vector3f),
-                                            mesh.positions.size());
-  std::copy(mesh.positions.begin(), mesh.positions.end(),
-            static_cast<Eigen::Vector3f*>(positions));
-  void* indices = rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0,
-                                          RTC_FORMAT_UINT3, sizeof(mesh.triangles.front()),
-                                          mesh.triangles.size());
+  void* positions =
+      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                              sizeof(Eigen::Vector3f), mesh.positions.size());
+  std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<Eigen::Vector3f*>(positions));
+  void* indices =
+      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              sizeof(mesh.triangles.front()), mesh.triangles.size());
   std::copy(mesh.triangles.begin(), mesh.triangles.end(),
             static_cast<std::array<std::uint32_t, 3>*>(indices));
   rtcCommitGeometry(geometry.get());
-  rtcAttachGeometryByID(scene_.get(), geometry.get(), id);
-  if (motion) movers_.push_back({id, mesh.positions, std::move(motion)});
+  rtcAttachGeometryByID(motion ? moving_.get() : fixed_.get(), geometry.get(), id);
+  if (motion) movers_.push_back({id, mesh.positions, std::move(motion), {}});
+  body.positions = std::move(mesh.positions);
 }
 
 void World::bake(const std::vector<LightSpec>& lights) {
-  for (unsigned id = 0; id < bodies_.size(); ++id) {
-    Body& body = *bodies_[id];
-    if (body.is_exact_sphere) continue;
-    const auto* positions = static_cast<const Eigen::Vector3f*>(rtcGetGeometryBufferData(
-        rtcGetGeometry(scene_.get(), id), RTC_BUFFER_TYPE_VERTEX, 0));
-    for (std::size_t i = 0; i < body.vertices.size(); ++i) {
-      SurfaceVertex& vertex = body.vertices[i];
-      vertex.light = baked_light(scene_.get(), lights, positions[i], vertex.normal);
+  for (const auto& body : bodies_) {
+    for (std::size_t i = 0; i < body->vertices.size(); ++i) {
+      SurfaceVertex& vertex = body->vertices[i];
+      // What moves receives the shadows of what does not; it casts none that stay behind.
+      vertex.light = baked_light(fixed_.get(), lights, body->positions[i], vertex.normal);
     }
+    body->positions.clear();
   }
+}
+
+void World::intersect8(const int* valid, RTCRayHit8& rays) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect8(valid, fixed_.get(), &context, &rays);
+  if (moves()) rtcIntersect8(valid, moving_.get(), &context, &rays);
+}
+
+void World::intersect1(RTCRayHit& ray) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(fixed_.get(), &context, &ray);
+  if (moves()) rtcIntersect1(moving_.get(), &context, &ray);
+}
+
+bool World::occluded1(RTCRay& ray) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(fixed_.get(), &context, &ray);
+  if (moves() && ray.tfar >= 0.0f) rtcOccluded1(moving_.get(), &context, &ray);
+  return ray.tfar < 0.0f;
 }
 
 Eigen::Vector3f World::normal(const RTCHit& hit, const Eigen::Vector3f& point) const {
@@ -156,18 +178,24 @@ Eigen::Vector3f World::normal(const RTCHit& hit, const Eigen::Vector3f& point) c
   if (body.is_exact_sphere) return (point - body.center).normalized();
   const auto& [a, b, c] = body.triangles[hit.primID];
   const Eigen::Vector3f at_rest = (1.0f - hit.u - hit.v) * body.vertices[a].normal +
-                                  hit.u * body.vertices[b].normal +
-                                  hit.v * body.vertices[c].normal;
+                                  hit.u * body.vertices[b].normal + hit.v * body.vertices[c].normal;
   return (body.world_from_rest * at_rest).normalized();
 }
 
-void World::move_to(double time_s) {
-  for (const Mover& mover : movers_) {
+bool World::move_to(double time_s) {
+  bool moved = false;
+  for (Mover& mover : movers_) {
     const geometry::Pose pose = mover.motion->world_from_rest(time_s);
+    if (pose.translation == mover.world_from_rest.translation &&
+        pose.rotation.coeffs() == mover.world_from_rest.rotation.coeffs()) {
+      continue;
+    }
+    moved = true;
+    mover.world_from_rest = pose;
     const Eigen::Matrix3f rotation = pose.matrix3().cast<float>();
     const Eigen::Vector3f translation = pose.translation.cast<float>();
     bodies_[mover.geometry_id]->world_from_rest = rotation;
-    const RTCGeometry geometry = rtcGetGeometry(scene_.get(), mover.geometry_id);
+    const RTCGeometry geometry = rtcGetGeometry(moving_.get(), mover.geometry_id);
     auto* positions = static_cast<Eigen::Vector3f*>(
         rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0));
     for (std::size_t i = 0; i < mover.rest.size(); ++i) {
@@ -176,7 +204,8 @@ void World::move_to(double time_s) {
     rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
     rtcCommitGeometry(geometry);
   }
-  if (moves()) rtcCommitScene(scene_.get());
+  if (moved) rtcCommitScene(moving_.get());
+  return moved;
 }
 
 }  // namespace lumibox::hal::sim

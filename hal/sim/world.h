@@ -28,7 +28,8 @@ struct SurfaceVertex {
 
 /// One object: what Embree does not know about it.
 struct Body {
-  std::vector<SurfaceVertex> vertices;  ///< at rest
+  std::vector<Eigen::Vector3f> positions;  ///< at rest; only until the light is baked
+  std::vector<SurfaceVertex> vertices;     ///< at rest
   Eigen::Matrix3f world_from_rest = Eigen::Matrix3f::Identity();  ///< turns normals with a mover
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<float> tiles_per_metre;      ///< per triangle, the largest stretch
@@ -50,7 +51,11 @@ class World {
  public:
   explicit World(const SceneSpec& spec);
 
-  RTCScene embree() const { return scene_.get(); }
+  /// Nearest hits of eight rays that begin together, of one ray; whether anything is in the way.
+  void intersect8(const int* valid, RTCRayHit8& rays) const;
+  void intersect1(RTCRayHit& ray) const;
+  bool occluded1(RTCRay& ray) const;
+
   const Body& body(unsigned geometry_id) const { return *bodies_[geometry_id]; }
 
   /// Unit normal in the world of a hit on a triangle or an exact sphere.
@@ -58,8 +63,8 @@ class World {
 
   bool moves() const { return !movers_.empty(); }
 
-  /// Moves what moves to where it is at a time and refits. Nothing to do where moves() is false.
-  void move_to(double time_s);
+  /// Moves what moves to where it is at a time and refits; false if nothing had to be done.
+  bool move_to(double time_s);
 
   /// Who renders a world that moves holds this meanwhile.
   std::mutex& mutex() { return mutex_; }
@@ -73,6 +78,7 @@ class World {
     unsigned geometry_id;
     std::vector<Eigen::Vector3f> rest;
     std::shared_ptr<const Motion> motion;
+    geometry::Pose world_from_rest;
   };
 
   void add_object(const ObjectSpec& spec, std::shared_ptr<const Motion> motion,
@@ -83,7 +89,8 @@ class World {
   void bake(const std::vector<LightSpec>& lights);
 
   Owned<RTCDevice> device_;
-  Owned<RTCScene> scene_;
+  Owned<RTCScene> fixed_;
+  Owned<RTCScene> moving_;  ///< apart, so that refitting it does not touch what stands still
   std::vector<std::unique_ptr<Body>> bodies_;  ///< by geometry id; Embree keeps their addresses
   std::map<std::string, std::shared_ptr<const Texture>> textures_;
   std::vector<Mover> movers_;
