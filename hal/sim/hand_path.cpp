@@ -87,7 +87,7 @@ Station walk_station(const PathSpec& spec, double duration_s, double time_s) {
   const double into_walk = std::clamp(time_s - spec.lead_in_s, 0.0, walk_s);
   Station s = spec.orbit ? orbit_station(*spec.orbit, spec.target, into_walk / walk_s)
                          : key_station(spec.keys, into_walk);
-  if (time_s < spec.lead_in_s) {
+  if (spec.lead_in_s > 0.0 && time_s < spec.lead_in_s) {
     // The walk begins with a step sideways, which gives a monocular tracker its baseline.
     const geometry::Pose pose = look_at(s.head<3>(), s.tail<3>());
     const double left = spec.lead_in_m * (1.0 - std::max(time_s, 0.0) / spec.lead_in_s);
