@@ -1,8 +1,8 @@
 #include "tracking/frame_search.h"
 
 #include <algorithm>
-
-#include "tracking/point_matcher.h"
+#include <cstdint>
+#include <utility>
 
 namespace lumibox::tracking {
 namespace {
@@ -31,18 +31,20 @@ std::vector<Candidate> visible_points(const geometry::Camera& camera, const MapV
   return visible;
 }
 
-/// Order that takes one point per cell in turn, the best-established first, so that a cut anywhere
-/// leaves points all over the picture.
+/// Order that takes one point per cell in turn, the best-established first and the cells in mixed
+/// order, so that a cut anywhere leaves points all over the picture.
 void spread_over_cells(std::vector<Candidate>& candidates) {
   std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
     return a.cell != b.cell ? a.cell < b.cell : a.sightings > b.sightings;
   });
-  std::vector<std::pair<int, Candidate>> ranked;
+  // Multiplying by an odd constant permutes the cells (Knuth, TAOCP 3, section 6.4).
+  std::vector<std::pair<std::uint64_t, Candidate>> ranked;
   ranked.reserve(candidates.size());
-  int rank = 0;
+  std::uint64_t rank = 0;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     rank = i > 0 && candidates[i].cell == candidates[i - 1].cell ? rank + 1 : 0;
-    ranked.emplace_back(rank, candidates[i]);
+    const std::uint32_t mixed = static_cast<std::uint32_t>(candidates[i].cell) * 2654435761U;
+    ranked.emplace_back(rank << 32U | mixed, candidates[i]);
   }
   std::stable_sort(ranked.begin(), ranked.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -58,17 +60,13 @@ std::optional<Measurement> find_point(const geometry::Camera& camera, const MapV
   const hal::Image& image = frame.level(warp.target_level);
   const auto found =
       search_square(image, *patch, to_level(candidate.pixel, warp.target_level), pass.radius);
-  if (!found || found->correlation < kMinCorrelation) return std::nullopt;
-  Eigen::Vector2d pixel = found->pixel;
-  if (pass.sub_pixel) {
-    const auto aligned = align_patch(image, *patch, pixel);
-    if (!aligned) return std::nullopt;
-    pixel = *aligned;
-  }
+  if (!found || found->correlation < pass.min_correlation) return std::nullopt;
+  const auto aligned = align_patch(image, *patch, found->pixel);
+  if (!aligned) return std::nullopt;
   Measurement m;
   m.point = candidate.point;
   m.position = map.points[candidate.point].position;
-  m.pixel = from_level(pixel, warp.target_level);
+  m.pixel = from_level(*aligned, warp.target_level);
   m.level = warp.target_level;
   if (!camera.contains(m.pixel, 0.0)) return std::nullopt;
   return m;

@@ -5,6 +5,7 @@
 #include "geometry/camera.h"
 #include "geometry/pose.h"
 #include "tracking/map_view.h"
+#include "tracking/point_matcher.h"
 #include "tracking/pose_estimator.h"
 #include "tracking/pyramid.h"
 
@@ -12,10 +13,10 @@ namespace lumibox::tracking {
 
 /// How one pass looks for map points.
 struct SearchPass {
-  int min_level = 0;      ///< search on this level or coarser ones
-  double radius = 4.0;    ///< pixels of the level searched
-  int max_points = 700;   ///< spread over the picture
-  bool sub_pixel = true;  ///< align after the search
+  int min_level = 0;     ///< search on this level or coarser ones
+  double radius = 4.0;   ///< pixels of the level searched
+  int max_points = 700;  ///< spread over the picture
+  double min_correlation = kMinCorrelation;
 };
 
 /// What a pass found; every point of `attempted` should be visible from the predicted pose.

@@ -3,6 +3,15 @@
 #include <algorithm>
 
 namespace lumibox::tracking {
+namespace {
+
+void append_point(MapView& view, PointId id, const Map::Point& point) {
+  view.points.push_back({id, point.position, static_cast<std::uint32_t>(view.sightings.size()),
+                         static_cast<std::uint32_t>(point.sightings.size())});
+  view.sightings.insert(view.sightings.end(), point.sightings.begin(), point.sightings.end());
+}
+
+}  // namespace
 
 KeyframeId Map::add_keyframe(const geometry::Pose& world_from_camera,
                              std::shared_ptr<const Pyramid> pyramid) {
@@ -62,20 +71,27 @@ void Map::scale(double factor) {
   update_depths();
 }
 
-MapView Map::view(std::uint64_t revision) const {
+MapView Map::view_without_points() const {
   MapView view;
-  view.revision = revision;
   view.keyframes.reserve(keyframes_.size());
   for (const Keyframe& k : keyframes_) {
     view.keyframes.push_back({k.world_from_camera, k.world_from_camera.inverse(), k.pyramid,
                               k.median_depth, static_cast<int>(k.points.size())});
   }
+  return view;
+}
+
+MapView Map::view(std::uint64_t revision) const {
+  MapView view = view_without_points();
+  view.revision = revision;
   view.points.reserve(points_.size());
-  for (const auto& [id, p] : points_) {
-    view.points.push_back({id, p.position, static_cast<std::uint32_t>(view.sightings.size()),
-                           static_cast<std::uint32_t>(p.sightings.size())});
-    view.sightings.insert(view.sightings.end(), p.sightings.begin(), p.sightings.end());
-  }
+  for (const auto& [id, p] : points_) append_point(view, id, p);
+  return view;
+}
+
+MapView Map::view_of(const std::vector<PointId>& points) const {
+  MapView view = view_without_points();
+  for (const PointId id : points) append_point(view, id, point(id));
   return view;
 }
 

@@ -52,9 +52,15 @@ class Map {
   /// Multiplies all lengths of the world.
   void scale(double factor);
 
+  /// Copy of the map for those who only read.
   MapView view(std::uint64_t revision) const;
 
+  /// The same with some of the points only.
+  MapView view_of(const std::vector<PointId>& points) const;
+
  private:
+  MapView view_without_points() const;
+
   std::vector<Keyframe> keyframes_;
   std::map<PointId, Point> points_;
   PointId next_point_ = 0;

@@ -17,7 +17,7 @@ std::optional<geometry::Pose> coarse_pose(const geometry::Camera& camera, const 
                                           double radius) {
   const int coarse_level = std::min(2, frame.levels() - 1);
   SearchResult found =
-      search_map(camera, map, frame, predicted, {coarse_level, radius, kCoarsePoints, true});
+      search_map(camera, map, frame, predicted, {coarse_level, radius, kCoarsePoints});
   const PoseEstimate estimate = estimate_pose(camera, found.measurements, predicted, kIterations);
   if (estimate.inliers < kMinCoarse) return std::nullopt;
   return estimate.camera_from_world;
@@ -34,7 +34,7 @@ std::optional<Localisation> localise(const geometry::Camera& camera,
 
   const double radius = std::max(2.0, 0.4 * options.search_radius_px);
   SearchResult found =
-      search_map(camera, map, frame, *coarse, {0, radius, options.max_measurements, true});
+      search_map(camera, map, frame, *coarse, {0, radius, options.max_measurements});
   const PoseEstimate estimate = estimate_pose(camera, found.measurements, *coarse, kIterations);
   return Localisation{estimate.camera_from_world, std::move(found.attempted),
                       std::move(found.measurements), estimate.inliers};

@@ -3,11 +3,13 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
 #include "geometry/triangulation.h"
 #include "tracking/corners.h"
+#include "tracking/frame_search.h"
 #include "tracking/patch.h"
 #include "tracking/point_matcher.h"
 
@@ -21,9 +23,10 @@ constexpr double kMinParallax = 0.6 * std::numbers::pi / 180.0;  // radians, for
 constexpr double kMinBaseline = 0.015;  // of the median depth, between keyframes that triangulate
 constexpr double kMaxErrorPx = 2.0;     // reprojection of a new point, pixels of its level
 constexpr double kEpipolarCorrelation = 0.85;
-constexpr double kUniqueness = 0.8;  // (1 - best correlation) over (1 - second best)
-constexpr int kPartners = 3;         // keyframes searched along epipolar lines
-constexpr int kNeighbours = 6;       // keyframes in which new points are then looked for
+constexpr double kUniqueness = 0.8;   // (1 - best correlation) over (1 - second best)
+constexpr double kKnownRadius = 3.0;  // pixels of the level, around where a point should be
+constexpr int kPartners = 3;          // keyframes searched along epipolar lines
+constexpr int kNeighbours = 6;        // keyframes in which new points are then looked for
 
 /// A patch of one keyframe prepared for another.
 struct PreparedPatch {
@@ -159,7 +162,7 @@ class OccupiedCells {
   bool occupied(const Eigen::Vector2d& pixel, int level) { return cell(pixel, level); }
 
  private:
-  static constexpr int kCell = 12;  // pixels of the level
+  static constexpr int kCell = 16;  // pixels of the level
   std::vector<bool>::reference cell(const Eigen::Vector2d& pixel, int level) {
     const int x = std::clamp(static_cast<int>(pixel.x()) / kCell, 0, columns_ - 1);
     const int y = std::clamp(static_cast<int>(pixel.y()) / kCell, 0, rows_ - 1);
@@ -190,32 +193,24 @@ std::vector<KeyframeId> partners_of(const Map& map, KeyframeId id) {
 }  // namespace
 
 void find_known_points(const geometry::Camera& camera, Map& map, KeyframeId id,
-                       const std::vector<PointId>& points) {
-  const geometry::Pose camera_from_world = map.keyframe(id).world_from_camera.inverse();
-  for (const PointId point_id : points) {
-    const Map::Point& point = map.point(point_id);
-    const Sighting source = point.sightings.front();
-    const auto predicted = camera.project(camera_from_world * point.position);
-    if (source.keyframe == id || !predicted || !camera.contains(*predicted, 8.0)) continue;
-    const Map::Keyframe& from = map.keyframe(source.keyframe);
-    const double depth = (from.world_from_camera.inverse() * point.position).z();
-    if (!(depth > 0.0)) continue;
-    const auto prepared =
-        prepare(camera, from, source.pixel, source.level, depth, map.keyframe(id));
-    if (!prepared) continue;
-    const hal::Image& image = map.keyframe(id).pyramid->level(prepared->level);
-    const auto match =
-        search_square(image, prepared->patch, to_level(*predicted, prepared->level), 3.0);
-    if (!match || match->correlation < kEpipolarCorrelation) continue;
-    const auto aligned = align_patch(image, prepared->patch, match->pixel);
-    if (!aligned) continue;
-    map.add_sighting(point_id, {id, from_level(*aligned, prepared->level), prepared->level});
+                       const MapView& candidates) {
+  const Map::Keyframe& keyframe = map.keyframe(id);
+  const geometry::Pose camera_from_world = keyframe.world_from_camera.inverse();
+  const SearchResult found =
+      search_map(camera, candidates, *keyframe.pyramid, camera_from_world,
+                 {0, kKnownRadius, std::numeric_limits<int>::max(), kEpipolarCorrelation});
+  for (const Measurement& m : found.measurements) {
+    if (error_px(camera, camera_from_world, m.position, m.pixel) > kMaxErrorPx * (1 << m.level)) {
+      continue;
+    }
+    map.add_sighting(candidates.points[m.point].id, {id, m.pixel, m.level});
   }
 }
 
 std::vector<PointId> create_points(const geometry::Camera& camera, const config::Tracking& options,
                                    Map& map, KeyframeId id) {
   std::vector<PointId> created;
+  find_known_points(camera, map, id, map.view(0));
   const std::vector<KeyframeId> partners = partners_of(map, id);
   OccupiedCells occupied(camera, map, id);
   const std::vector<Corner> corners = detect_corners(
@@ -234,7 +229,7 @@ std::vector<PointId> create_points(const geometry::Camera& camera, const config:
     }
   }
   for (const KeyframeId neighbour : covisible_keyframes(map, id, kNeighbours)) {
-    find_known_points(camera, map, neighbour, created);
+    find_known_points(camera, map, neighbour, map.view_of(created));
   }
   return created;
 }

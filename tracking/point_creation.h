@@ -14,8 +14,9 @@ namespace lumibox::tracking {
 std::vector<PointId> create_points(const geometry::Camera& camera, const config::Tracking& options,
                                    Map& map, KeyframeId id);
 
-/// Looks in keyframe `id` for points that its neighbours see and adds the sightings found.
+/// Looks in keyframe `id` for the points of `candidates`, a view of this map, and adds the
+/// sightings found: a point that many keyframes see ties them together.
 void find_known_points(const geometry::Camera& camera, Map& map, KeyframeId id,
-                       const std::vector<PointId>& points);
+                       const MapView& candidates);
 
 }  // namespace lumibox::tracking

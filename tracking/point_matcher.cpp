@@ -7,10 +7,12 @@
 namespace lumibox::tracking {
 namespace {
 
-/// Index of the sighting with the smallest angle at the point to the new centre; -1 beyond 60
-/// degrees, where even a flat patch is foreshortened to half.
-int nearest_sighting(const MapView& map, const Eigen::Vector3d& position,
-                     std::span<const Sighting> sightings, const Eigen::Vector3d& center) {
+/// Index of the sighting to compare with: the oldest from within 7 degrees of the new direction of
+/// view, for every change of template adds its error to the point's place, else the nearest; -1
+/// beyond 60 degrees, where even a flat patch is foreshortened to half.
+int choose_sighting(const MapView& map, const Eigen::Vector3d& position,
+                    std::span<const Sighting> sightings, const Eigen::Vector3d& center) {
+  constexpr double kNearEnough = 0.9925;  // cosine of 7 degrees
   const Eigen::Vector3d wanted = (center - position).normalized();
   double best_cosine = 0.5;
   int best = -1;
@@ -18,6 +20,7 @@ int nearest_sighting(const MapView& map, const Eigen::Vector3d& position,
     const auto& keyframe = map.keyframes[static_cast<std::size_t>(sightings[i].keyframe)];
     const double cosine =
         wanted.dot((keyframe.world_from_camera.translation - position).normalized());
+    if (cosine > kNearEnough) return static_cast<int>(i);
     if (cosine > best_cosine) {
       best_cosine = cosine;
       best = static_cast<int>(i);
@@ -52,7 +55,7 @@ std::optional<PatchWarp> plan_warp(const geometry::Camera& camera, const MapView
                                    std::span<const Sighting> sightings,
                                    const geometry::Pose& camera_from_world, int min_level) {
   const int chosen =
-      nearest_sighting(map, position, sightings, camera_from_world.inverse().translation);
+      choose_sighting(map, position, sightings, camera_from_world.inverse().translation);
   if (chosen < 0) return std::nullopt;
   const Sighting& sighting = sightings[static_cast<std::size_t>(chosen)];
   const auto& keyframe = map.keyframes[static_cast<std::size_t>(sighting.keyframe)];

@@ -11,7 +11,7 @@
 
 namespace lumibox::tracking {
 
-/// How to look for a map point in a picture: the sighting whose direction of view is nearest, and
+/// How to look for a map point in a picture: the sighting to compare with, and
 /// the warp from it (Klein and Murray, ISMAR 2007, section 5.3).
 struct PatchWarp {
   const Pyramid* source = nullptr;
@@ -21,7 +21,7 @@ struct PatchWarp {
   Eigen::Matrix2d source_from_target;  ///< offsets on target_level to offsets on source_level
 };
 
-/// Picks the sighting from which the point looks most as it does from `camera_from_world`, and the
+/// Picks a sighting from which the point looks as it does from `camera_from_world`, and the
 /// warp from a plane through the point that faces the sighting's camera. With `min_level` above 0
 /// the search is on that level or a coarser one. None if the point is seen from an angle or scale
 /// at which a patch cannot be compared.

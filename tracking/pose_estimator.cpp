@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kTukey = 4.685;   // 95 % efficiency on Gaussian noise (Huber, 1981)
 constexpr double kMinSigma = 0.3;  // pixels: alignment is not better than this, whatever MAD says
+constexpr double kMaxInlierError = 3.0;  // pixels: a pose off by more explains nothing
 constexpr double kMaxSigma = 4.0;  // pixels: more is no longer noise
 
 using Jacobian = Eigen::Matrix<double, 2, 6>;
@@ -75,9 +76,10 @@ PoseEstimate estimate_pose(const geometry::Camera& camera, std::span<Measurement
     if (step.squaredNorm() < 1e-14) break;
   }
   const double cutoff2 = std::pow(kTukey * estimate.sigma_px, 2);
+  const double bound2 = std::min(cutoff2, kMaxInlierError * kMaxInlierError);
   for (Measurement& m : measurements) {
     const Residual r = residual_of(camera, m, estimate.camera_from_world);
-    m.inlier = r.valid && r.error.squaredNorm() < cutoff2;
+    m.inlier = r.valid && r.error.squaredNorm() < bound2;
     estimate.inliers += m.inlier ? 1 : 0;
   }
   return estimate;
