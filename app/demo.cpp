@@ -37,7 +37,6 @@ constexpr Gesture kReview{Button::Review, Press::Short};
 constexpr Gesture kPlus{Button::Plus, Press::Short};
 constexpr Gesture kMinus{Button::Minus, Press::Short};
 constexpr Gesture kPlusLong{Button::Plus, Press::Long};
-constexpr Gesture kMinusLong{Button::Minus, Press::Long};
 constexpr Gesture kWipe{Button::Wipe, Press::Short};
 constexpr Gesture kWipeLong{Button::Wipe, Press::Long};
 
@@ -45,10 +44,12 @@ constexpr Gesture kWipeLong{Button::Wipe, Press::Long};
 constexpr Step kSteps[] = {
     {0.2, kMain, "01-looking-around", "Main: nothing to place yet, so nothing happens"},
     {1.6, kReview, "02-aim", "a map is there; Review: the augmented aperture"},
-    {2.2, kMinusLong, "03-focus", "-, long: focus nearer"},
-    {3.0, kPlusLong, "04-focused-nearer", "+, long: and back"},
-    {3.8, kMain, nullptr, "Main: the sphere stays where the focus is"},
-    {4.0, kMain, "05-placed", "Main: the capture begins"},
+    {2.3, kMinus, "03-focus", "-: focus nearer"},
+    {2.5, kMinus, nullptr, "-: nearer still"},
+    {2.9, kPlus, "04-focused-nearer", "+: and back"},
+    {3.1, kPlus, nullptr, "+: to where it was sharp"},
+    {3.5, kMain, nullptr, "Main: the sphere stays where the focus is"},
+    {3.9, kMain, "05-placed", "Main: the capture begins"},
     {6.0, std::nullopt, "06-capture-early", "painting the sphere"},
     {8.0, kWipe, nullptr, "Wipe: the nearest view is removed, and recording pauses"},
     {8.2, kWipeLong, nullptr, "Wipe, long: it comes back"},
@@ -59,11 +60,15 @@ constexpr Step kSteps[] = {
     {21.4, kReview, "09-capture-late", "the walk ends; Review"},
     {21.6, kMainLong, nullptr, "Main, long: a slow orbit in place of the box"},
     {24.0, kMain, "10-review-small-aperture", "Main: the wide aperture"},
-    {24.3, kMinusLong, "11-review-wide-aperture", "-, long: focus nearer"},
-    {25.1, kPlusLong, "12-focus-near", "+, long: focus back"},
-    {25.9, kPlusLong, nullptr, "+, long: focus farther"},
-    {26.7, std::nullopt, "13-focus-far", "the end"},
+    {24.3, kMinus, "11-review-wide-aperture", "-: focus nearer"},
+    {24.5, kMinus, nullptr, "-: nearer still"},
+    {24.8, kPlusLong, "12-focus-near", "+, long: focus farther"},
+    {25.7, std::nullopt, "13-focus-far", "the end"},
 };
+
+// A third of the simulated camera's rate: two of three pictures are left out, and one waits a third
+// of the time.
+constexpr double kRateHz = 10.0;
 
 std::vector<hal::ButtonEvent> presses(double long_press_s) {
   std::vector<hal::ButtonEvent> events;
@@ -107,7 +112,8 @@ class Narrator {
 
 }  // namespace
 
-void run_demo(const config::Config& config, const std::filesystem::path& out) {
+void run_demo(config::Config config, const std::filesystem::path& out) {
+  config.loop.rate_hz = kRateHz;
   const auto scene = hal::load_scene(find_scene("toy"));
   Devices devices;
   devices.clock = std::make_unique<hal::VirtualClock>();

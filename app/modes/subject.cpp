@@ -40,13 +40,8 @@ ModeId SubjectMode::update(const Moment& moment) {
   if (moment.tracked.state == tracking::TrackingState::Initialising) {
     return ModeId::Acquire;
   }
-  const auto& world_from_camera = moment.tracked.world_from_camera;
-  if (world_from_camera && !placed_) {
-    ray_ = ray_of_pixel(camera_, *world_from_camera, reticle(camera_));
-    if (ray_ && !aperture_) {
-      const auto depth = depth_on_ray(*ray_, moment.map_points);
-      first_depth_ = depth ? depth : first_depth_;
-    }
+  if (moment.tracked.world_from_camera && !placed_) {
+    aim(moment);
   }
   if (const auto subject = sphere(); subject && aperture_) {
     aperture_->update(moment, subject->center);
@@ -78,6 +73,25 @@ Picture SubjectMode::draw(const Moment& moment) const {
     }
   }
   return picture;
+}
+
+void SubjectMode::aim(const Moment& moment) {
+  const auto before = sphere();
+  ray_ = ray_of_pixel(camera_, *moment.tracked.world_from_camera, reticle(camera_));
+  if (!ray_) {
+    return;
+  }
+  if (!aperture_) {
+    const auto depth = depth_on_ray(*ray_, moment.map_points);
+    first_depth_ = depth ? depth : first_depth_;
+  } else if (before) {
+    // The plane in focus stands still in the world while the box is waved before it.
+    const double depth = ray_->direction.dot(before->center - ray_->origin);
+    if (depth > 0.0) {
+      first_depth_ = depth;
+      depth_steps_ = 0;
+    }
+  }
 }
 
 std::optional<lightfield::Sphere> SubjectMode::sphere() const {

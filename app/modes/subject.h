@@ -21,6 +21,9 @@ class SubjectMode : public Mode {
   Picture draw(const Moment& moment) const override;
 
  private:
+  /// Points the ray where the box points.
+  void aim(const Moment& moment);
+
   /// Where the sphere would be now; none as long as no depth is known.
   std::optional<lightfield::Sphere> sphere() const;
   void place();
