@@ -24,7 +24,7 @@ struct Tracking {
   double lost_inlier_share = 0.25;  ///< share of searched points found below which quality is bad
   int lost_after_frames = 5;        ///< bad frames in a row until the tracker is lost
   int local_keyframes = 8;          ///< keyframes in a local bundle adjustment
-  double keyframe_parallax_deg = 3.0;  ///< median parallax to the nearest keyframe for a new one
+  double keyframe_parallax_deg = 4.5;  ///< median parallax to the nearest keyframe for a new one
 };
 
 struct Capture {

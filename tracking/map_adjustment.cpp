@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "tracking/bundle_adjustment.h"
 
 namespace lumibox::tracking {
 namespace {
 
-constexpr int kLocalIterations = 8;
+constexpr int kLocalIterations = 5;
+constexpr int kFixedViews = 10;  // that see most of the points; more add time, not accuracy
 constexpr int kGlobalIterations = 20;
 constexpr double kOutlier = 3.5;  // sigmas; 0.2 % of Gaussian errors in 2D are larger
 
@@ -19,7 +22,26 @@ struct MapProblem {
   std::vector<PointId> points;        // of bundle.points
 };
 
-/// All points seen by `free`, all their sightings, and whatever keyframes those need.
+/// Keyframes outside `free` that see most of its points.
+std::set<KeyframeId> choose_fixed(const Map& map, const std::set<KeyframeId>& free,
+                                  const std::set<PointId>& points) {
+  std::vector<std::pair<int, KeyframeId>> shared(map.keyframes().size());
+  for (std::size_t i = 0; i < shared.size(); ++i) shared[i] = {0, static_cast<KeyframeId>(i)};
+  for (const PointId id : points) {
+    for (const Sighting& s : map.point(id).sightings) {
+      if (!free.contains(s.keyframe)) --shared[static_cast<std::size_t>(s.keyframe)].first;
+    }
+  }
+  std::sort(shared.begin(), shared.end());
+  std::set<KeyframeId> fixed;
+  for (const auto& [negative_count, id] : shared) {
+    if (negative_count == 0 || fixed.size() == kFixedViews) break;
+    fixed.insert(id);
+  }
+  return fixed;
+}
+
+/// All points seen by `free`, and their sightings in `free` and in the fixed views.
 MapProblem make_problem(const Map& map, const std::set<KeyframeId>& free) {
   MapProblem problem;
   std::map<KeyframeId, int> view_of;
@@ -36,11 +58,13 @@ MapProblem make_problem(const Map& map, const std::set<KeyframeId>& free) {
   for (const KeyframeId id : free) {
     points.insert(map.keyframe(id).points.begin(), map.keyframe(id).points.end());
   }
+  const std::set<KeyframeId> fixed = choose_fixed(map, free, points);
   for (const PointId id : points) {
     const int index = static_cast<int>(problem.points.size());
     problem.points.push_back(id);
     problem.bundle.points.push_back(map.point(id).position);
     for (const Sighting& s : map.point(id).sightings) {
+      if (!free.contains(s.keyframe) && !fixed.contains(s.keyframe)) continue;
       problem.bundle.observations.push_back(
           {add_view(s.keyframe), index, s.pixel, static_cast<double>(1 << s.level), 0.0});
     }

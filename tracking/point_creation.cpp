@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -25,6 +24,7 @@ constexpr double kMaxErrorPx = 2.0;     // reprojection of a new point, pixels o
 constexpr double kEpipolarCorrelation = 0.85;
 constexpr double kUniqueness = 0.8;   // (1 - best correlation) over (1 - second best)
 constexpr double kKnownRadius = 3.0;  // pixels of the level, around where a point should be
+constexpr int kMaxKnown = 1500;       // points looked for in one keyframe
 constexpr int kPartners = 3;          // keyframes searched along epipolar lines
 constexpr int kNeighbours = 6;        // keyframes in which new points are then looked for
 
@@ -162,7 +162,7 @@ class OccupiedCells {
   bool occupied(const Eigen::Vector2d& pixel, int level) { return cell(pixel, level); }
 
  private:
-  static constexpr int kCell = 16;  // pixels of the level
+  static constexpr int kCell = 20;  // pixels of the level
   std::vector<bool>::reference cell(const Eigen::Vector2d& pixel, int level) {
     const int x = std::clamp(static_cast<int>(pixel.x()) / kCell, 0, columns_ - 1);
     const int y = std::clamp(static_cast<int>(pixel.y()) / kCell, 0, rows_ - 1);
@@ -196,9 +196,8 @@ void find_known_points(const geometry::Camera& camera, Map& map, KeyframeId id,
                        const MapView& candidates) {
   const Map::Keyframe& keyframe = map.keyframe(id);
   const geometry::Pose camera_from_world = keyframe.world_from_camera.inverse();
-  const SearchResult found =
-      search_map(camera, candidates, *keyframe.pyramid, camera_from_world,
-                 {0, kKnownRadius, std::numeric_limits<int>::max(), kEpipolarCorrelation});
+  const SearchResult found = search_map(camera, candidates, *keyframe.pyramid, camera_from_world,
+                                        {0, kKnownRadius, kMaxKnown, kEpipolarCorrelation});
   for (const Measurement& m : found.measurements) {
     if (error_px(camera, camera_from_world, m.position, m.pixel) > kMaxErrorPx * (1 << m.level)) {
       continue;

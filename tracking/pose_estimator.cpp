@@ -11,7 +11,7 @@ namespace {
 constexpr double kTukey = 4.685;   // 95 % efficiency on Gaussian noise (Huber, 1981)
 constexpr double kMinSigma = 0.3;  // pixels: alignment is not better than this, whatever MAD says
 constexpr double kMaxInlierError = 3.0;  // pixels: a pose off by more explains nothing
-constexpr double kMaxSigma = 4.0;  // pixels: more is no longer noise
+constexpr double kMaxSigma = 4.0;        // pixels: more is no longer noise
 
 using Jacobian = Eigen::Matrix<double, 2, 6>;
 

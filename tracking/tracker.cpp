@@ -18,7 +18,7 @@ constexpr int kMinGoodInliers = 40;            // fewer are not good enough to r
 constexpr double kVerifiedShare = 0.35;        // of points found again after relocalisation
 constexpr double kMinContrast = 6.0;           // grey levels; a dark or covered lens shows less
 constexpr int kMinKeyframeGap = 4;             // frames
-constexpr double kRefreshShare = 0.6;          // of the nearest keyframe's points still measured
+constexpr double kRefreshShare = 0.5;          // of the nearest keyframe's points still measured
 constexpr double kMinRefreshBaseline = 0.012;  // of the depth: without a baseline, no new points
 constexpr double kPriorAgreement = 1.5 * std::numbers::pi / 180.0;
 

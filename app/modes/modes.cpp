@@ -21,9 +21,10 @@ Decision Modes::decide(const std::vector<Gesture>& gestures, const Moment& momen
 }
 
 void Modes::go_to(ModeId next, const Moment& moment) {
-  if (next != current_) {
+  while (next != current_) {
     current_ = next;
     mode(current_).enter(moment);
+    next = mode(current_).update(moment);  // so that it has something to show in this very tick
   }
 }
 

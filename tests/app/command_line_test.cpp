@@ -150,7 +150,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Spoiled{"NanInCalibration", "calib.txt", "nan 30 16 12 0 0 0 0 32 24 10\n"},
                       Spoiled{"ZeroFocalLength", "calib.txt", "0 30 16 12 0 0 0 0 32 24 10\n"},
                       Spoiled{"TooFewNumbers", "calib.txt", "30 30 16 12\n"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& spoiled) { return spoiled.param.name; });
 
 }  // namespace
 }  // namespace lumibox::app

@@ -123,7 +123,7 @@ TEST(Subject, AugmentedApertureCollectsAFewPicturesAndPutsTheSphereAtItsFocus) {
     box.tick({}, 3.0 * kDegree * std::sin(0.2 * i));
   }
   ASSERT_TRUE(box.picture.light_field);
-  const auto& fused = *box.picture.light_field;
+  const LightFieldPicture fused = *box.picture.light_field;
   EXPECT_GT(fused.perspectives.size(), 5U);
   EXPECT_LE(fused.perspectives.size(), static_cast<std::size_t>(box.config.aperture.frames) + 1U);
   EXPECT_EQ(fused.settings.aperture, render::Aperture::Wide);

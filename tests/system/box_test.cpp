@@ -36,9 +36,9 @@ struct TimedPress {
 };
 
 /// One box and its run; captures go into `captures`.
-class Run {
+class BoxRun {
  public:
-  Run(const std::vector<TimedPress>& presses, const std::filesystem::path& captures) {
+  BoxRun(const std::vector<TimedPress>& presses, const std::filesystem::path& captures) {
     config_.loop.rate_hz = 15.0;
     config_.capture.threshold_deg = 3.0;
     devices_.clock = std::make_unique<hal::VirtualClock>();
@@ -102,7 +102,7 @@ const std::vector<TimedPress> kCapture = {
 
 TEST(Box, AWalkAroundASubjectBecomesALightFieldOnTheScreen) {
   const TempDir dir;
-  Run run(kCapture, dir.path());
+  BoxRun run(kCapture, dir.path());
   run.until(1.9);
   EXPECT_EQ(run.loop().mode(), ModeId::Subject) << run.loop().picture().advice;
   run.until(6.3);
@@ -123,7 +123,7 @@ TEST(Box, TwoRunsLeaveTheSameBytes) {
   std::map<std::string, std::string> first;
   for (int i = 0; i < 2; ++i) {
     const TempDir dir;
-    Run run(kCapture, dir.path());
+    BoxRun run(kCapture, dir.path());
     run.until(4.5);
     run.loop().finish();
     const auto files = contents(dir.path());
@@ -159,7 +159,7 @@ TEST(Box, FullDiskIsSaidOnTheScreenAndWhatIsCompleteStaysLoadable) {
   if (!disk.mounted()) {
     GTEST_SKIP() << "mounting a small file system needs root";
   }
-  Run run(kCapture, disk.path());
+  BoxRun run(kCapture, disk.path());
   run.until(6.3);
   EXPECT_EQ(run.loop().mode(), ModeId::Capture);
   ASSERT_EQ(run.loop().picture().alerts.size(), 1U);
