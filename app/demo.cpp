@@ -42,7 +42,7 @@ constexpr Gesture kWipeLong{Button::Wipe, Press::Long};
 
 // The walk of the scene takes 21.5 seconds; after it the box has nothing new to see.
 constexpr Step kSteps[] = {
-    {0.2, kMain, "01-looking-around", "Main: nothing to place yet, so nothing happens"},
+    {0.0, kMain, "01-looking-around", "Main: nothing to place yet, so nothing happens"},
     {1.6, kReview, "02-aim", "a map is there; Review: the augmented aperture"},
     {2.3, kMinus, "03-focus", "-: focus nearer"},
     {2.5, kMinus, nullptr, "-: nearer still"},

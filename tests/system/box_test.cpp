@@ -94,7 +94,7 @@ double mean_brightness(const hal::Image& image) {
 }
 
 const std::vector<TimedPress> kCapture = {
-    {0.1, {Button::Main, Press::Short}},  // too early: nothing happens
+    {0.0, {Button::Main, Press::Short}},  // too early: nothing happens
     {2.0, {Button::Main, Press::Short}},
     {2.3, {Button::Main, Press::Short}},
     {6.4, {Button::Review, Press::Short}},
