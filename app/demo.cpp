@@ -66,10 +66,6 @@ constexpr Step kSteps[] = {
     {25.7, std::nullopt, "13-focus-far", "the end"},
 };
 
-// A third of the simulated camera's rate: two of three pictures are left out, and one waits a third
-// of the time.
-constexpr double kRateHz = 10.0;
-
 std::vector<hal::ButtonEvent> presses(double long_press_s) {
   std::vector<hal::ButtonEvent> events;
   for (const Step& step : kSteps) {
@@ -112,8 +108,7 @@ class Narrator {
 
 }  // namespace
 
-void run_demo(config::Config config, const std::filesystem::path& out) {
-  config.loop.rate_hz = kRateHz;
+void run_demo(const config::Config& config, const std::filesystem::path& out) {
   const auto scene = hal::load_scene(find_scene("toy"));
   Devices devices;
   devices.clock = std::make_unique<hal::VirtualClock>();

@@ -11,6 +11,6 @@ namespace lumibox::app {
 /// runs as fast as the work allows. Leaves pictures of the screen and the capture in `out`, says
 /// what happens on stdout, and at the end how good it was against the simulator's truth. Throws
 /// config::InputError if `out` cannot be written.
-void run_demo(config::Config config, const std::filesystem::path& out);
+void run_demo(const config::Config& config, const std::filesystem::path& out);
 
 }  // namespace lumibox::app

@@ -48,7 +48,6 @@ void say_quality(const hal::Scene& scene, const Loop& loop) {
 
   const geometry::Camera camera = geometry::Camera(scene.profile()).undistorted();
   const geometry::Similarity estimate_from_truth = error->truth_from_estimate.inverse();
-  const lightfield::Sphere subject{scene.subject().center, scene.subject().radius};
   const render::Settings settings = render::settings_from(
       loop.config().render, render::Aperture::Small, light_field.subject()->center);
   Painter painter(Exactness::Fast);
@@ -61,7 +60,7 @@ void say_quality(const hal::Scene& scene, const Loop& loop) {
     const render::View view{camera, estimate_from_truth * true_view.world_from_camera};
     const hal::Image rendered = painter.paint(view, perspectives, settings);
     const hal::Image actual = scene.render_ideal(camera, true_view.world_from_camera, time_s);
-    const hal::Image mask = render::subject_mask(true_view, subject);
+    const hal::Image mask = scene.subject_mask(camera, true_view.world_from_camera, time_s);
     const double psnr = render::psnr(rendered, actual, &mask);
     worst = std::min(worst, psnr);
     sum += psnr;

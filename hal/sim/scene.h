@@ -38,6 +38,11 @@ class Scene {
   Image render_ideal(const geometry::Camera& camera, const geometry::Pose& world_from_camera,
                      double time_s) const;
 
+  /// Where an ideal camera sees the subject at a time: 255 in pixels whose nearest surface lies
+  /// within the subject's sphere, 0 elsewhere. One channel.
+  Image subject_mask(const geometry::Camera& camera, const geometry::Pose& world_from_camera,
+                     double time_s) const;
+
   class Impl;
   explicit Scene(std::unique_ptr<Impl> impl);
   const Impl& impl() const { return *impl_; }
