@@ -25,7 +25,23 @@ inline Color linear_from_srgb(const Color& srgb) {
 
 /// The same from and to bytes, by table: the renderer's innermost loops.
 const std::array<float, 256>& linear_from_srgb_byte_table();
-std::uint8_t srgb_byte_from_linear(float linear);
+class SrgbBytes {
+ public:
+  static const SrgbBytes& table();
+
+  std::uint8_t operator()(float linear) const {
+    // Written so that NaN becomes black.
+    const float clamped = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;
+    return bytes_[static_cast<std::size_t>(static_cast<int>(clamped * kSteps + 0.5f))];
+  }
+
+ private:
+  SrgbBytes();
+
+  /// Fine enough that the steepest part of the curve, at black, moves by 0.2 levels per entry.
+  static constexpr int kSteps = 1 << 14;
+  std::array<std::uint8_t, kSteps + 1> bytes_;
+};
 
 /// Relative luminance of linear light (Rec. 709).
 inline float luminance(const Color& c) {

@@ -11,13 +11,13 @@ FrameRenderer::FrameRenderer(const Scene& scene)
       tracer_(*scene.impl().world, scene.impl().spec, geometry::Camera(scene.profile())),
       shutter_(make_shutter({*scene.impl().world, scene.impl().path, tracer_},
                             scene.impl().spec.effects)),
-      stages_(make_stages(scene.impl().spec)) {}
+      stages_(make_stages(scene.impl().spec)),
+      light_(scene.profile().width, scene.profile().height) {}
 
 Image FrameRenderer::render(std::int64_t frame, bool exposure_locked, SimCost& cost) {
   const Scene::Impl& scene = scene_.impl();
   const Tracer::RayCount before = tracer_.rays();
   cost = {};
-  LinearImage image(scene.spec.camera.width, scene.spec.camera.height);
   Exposure exposure;
   exposure.frame = frame;
   exposure.time_s = static_cast<double>(frame) / scene.spec.camera.fps;
@@ -25,16 +25,16 @@ Image FrameRenderer::render(std::int64_t frame, bool exposure_locked, SimCost& c
   {
     std::unique_lock<std::mutex> alone(scene.world->mutex(), std::defer_lock);
     if (scene.world->moves()) alone.lock();
-    shutter_->expose(exposure.time_s, image, cost);
+    shutter_->expose(exposure.time_s, light_, cost);
   }
   for (const auto& stage : stages_) {
-    stage->apply(image, exposure);
+    stage->apply(light_, exposure);
     cost.stages.push_back(stage->name());
   }
   cost.stages.emplace_back("tone_mapping");
   cost.camera_rays = tracer_.rays().camera - before.camera;
   cost.secondary_rays = tracer_.rays().secondary - before.secondary;
-  return tone_mapped(image, scene.spec.exposure);
+  return tone_mapped(light_, scene.spec.exposure);
 }
 
 bool is_dropped(const EffectSpecs& effects, std::int64_t frame) {

@@ -27,6 +27,7 @@ class FrameRenderer {
   Tracer tracer_;
   std::unique_ptr<Shutter> shutter_;
   std::vector<std::unique_ptr<ImageStage>> stages_;
+  LinearImage light_;  ///< of the current frame; kept for its memory
 };
 
 /// True if the scene's effects lose this frame on its way.

@@ -74,9 +74,10 @@ std::vector<std::unique_ptr<ImageStage>> make_stages(const SceneSpec& spec) {
 Image tone_mapped(const LinearImage& image, double exposure) {
   Image result(image.width, image.height, 3);
   const auto factor = static_cast<float>(exposure);
+  const SrgbBytes& srgb_byte = SrgbBytes::table();
   std::uint8_t* byte = result.data();
   for (const Color& pixel : image.pixels) {
-    for (Eigen::Index c = 0; c < 3; ++c) *byte++ = srgb_byte_from_linear(factor * pixel[c]);
+    for (Eigen::Index c = 0; c < 3; ++c) *byte++ = srgb_byte(factor * pixel[c]);
   }
   return result;
 }

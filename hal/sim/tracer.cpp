@@ -10,8 +10,6 @@
 namespace lumibox::hal::sim {
 namespace {
 
-constexpr int kPacket = 8;
-
 /// A start off a surface, beyond the rounding of its coordinates, on the side `normal` points to.
 Eigen::Vector3f off_surface(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) {
   return point + 3e-5f * std::max(1.0f, point.cwiseAbs().maxCoeff()) * normal;
@@ -25,6 +23,35 @@ float fresnel(float cos_in, float cos_out, float ior) {
   return 0.5f * (parallel * parallel + perpendicular * perpendicular);
 }
 
+/// How much wider a pixel is on a surface that it sees at a slant: longer than wide; one round
+/// footprint of its area serves.
+float slant(float nx, float ny, float nz, float dx, float dy, float dz) {
+  const float cosine = std::abs(nx * dx + ny * dy + nz * dz) /
+                       std::sqrt((nx * nx + ny * ny + nz * nz) * (dx * dx + dy * dy + dz * dz));
+  return 1.0f / std::sqrt(std::max(cosine, 0.05f));
+}
+
+/// Pixel widths on the surfaces that a packet from one point met.
+void surface_widths(const RTCRayHit16& p, float spread, float* widths) {
+  for (int i = 0; i < RayPacket::kSize; ++i) {
+    widths[i] = spread * p.ray.tfar[i] *
+                slant(p.hit.Ng_x[i], p.hit.Ng_y[i], p.hit.Ng_z[i], p.ray.dir_x[i], p.ray.dir_y[i],
+                      p.ray.dir_z[i]);
+  }
+}
+
+RTCHit hit_of(const RTCHit16& hits, int i) {
+  RTCHit hit{};
+  hit.Ng_x = hits.Ng_x[i];
+  hit.Ng_y = hits.Ng_y[i];
+  hit.Ng_z = hits.Ng_z[i];
+  hit.u = hits.u[i];
+  hit.v = hits.v[i];
+  hit.primID = hits.primID[i];
+  hit.geomID = hits.geomID[i];
+  return hit;
+}
+
 }  // namespace
 
 Tracer::Tracer(const World& world, const SceneSpec& spec, const geometry::Camera& camera)
@@ -33,68 +60,47 @@ Tracer::Tracer(const World& world, const SceneSpec& spec, const geometry::Camera
       reflection_depth_(spec.effects.reflection ? spec.effects.reflection->depth : 0),
       refraction_depth_(spec.effects.refraction ? spec.effects.refraction->depth : 0),
       width_(camera.width()),
-      pixel_spread_(static_cast<float>(2.0 / (camera.profile().fx + camera.profile().fy))) {
+      pixel_spread_(static_cast<float>(2.0 / (camera.profile().fx + camera.profile().fy))),
+      camera_rays_(camera) {
   for (const LightSpec& light : spec.lights) {
     if (light.shadows == Shadows::Traced) traced_lights_.push_back(light);
-  }
-  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  bearings_.reserve(static_cast<std::size_t>(camera.width()) *
-                    static_cast<std::size_t>(camera.height()));
-  for (int y = 0; y < camera.height(); ++y) {
-    for (int x = 0; x < camera.width(); ++x) {
-      const auto bearing = camera.unproject({x, y});
-      bearings_.push_back(bearing ? bearing->cast<float>() : Eigen::Vector2f(kNan, kNan));
-    }
   }
 }
 
 void Tracer::trace_rows(const geometry::Pose& world_from_camera, int begin, int end,
                         LinearImage& image) {
-  const Eigen::Matrix3f rotation = world_from_camera.matrix3().cast<float>();
-  Cone cone;
-  cone.origin = world_from_camera.translation.cast<float>();
-  cone.spread = pixel_spread_;
-  alignas(32) RTCRayHit8 packet{};
-  alignas(32) std::array<int, kPacket> valid{};
+  const int rows = (end - begin) % 4 == 0 ? 4 : 1;
+  const int columns = RayPacket::kSize / rows;
+  const Eigen::Vector3f origin = world_from_camera.translation.cast<float>();
+  RayPacket packet;
+  for (int y = begin; y < end; y += rows) {
+    for (int x = 0; x < width_; x += columns) {
+      const CameraRays::Tile tile{x, y, columns, rows};
+      rays_.camera += camera_rays_.fill(tile, world_from_camera, packet);
+      world_.intersect16(packet);
+      shade_tile(tile, packet, origin, image);
+    }
+  }
+}
 
-  for (int y = begin; y < end; ++y) {
-    const Eigen::Vector2f* bearings = bearings_.data() + static_cast<std::ptrdiff_t>(y) * width_;
-    for (int x0 = 0; x0 < width_; x0 += kPacket) {
-      for (int i = 0; i < kPacket; ++i) {
-        const bool inside = x0 + i < width_ && !std::isnan(bearings[x0 + i].x());
-        valid[static_cast<std::size_t>(i)] = inside ? -1 : 0;
-        if (!inside) continue;
-        const Eigen::Vector3f direction = rotation * bearings[x0 + i].homogeneous();
-        packet.ray.org_x[i] = cone.origin.x();
-        packet.ray.org_y[i] = cone.origin.y();
-        packet.ray.org_z[i] = cone.origin.z();
-        packet.ray.dir_x[i] = direction.x();
-        packet.ray.dir_y[i] = direction.y();
-        packet.ray.dir_z[i] = direction.z();
-        packet.ray.tnear[i] = 0.0f;
-        packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
-        packet.ray.mask[i] = ~0u;
-        packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-        ++rays_.camera;
+void Tracer::shade_tile(const CameraRays::Tile& tile, const RayPacket& packet,
+                        const Eigen::Vector3f& origin, LinearImage& image) {
+  alignas(64) float widths[RayPacket::kSize];
+  surface_widths(packet.rays, pixel_spread_, widths);
+  const RTCRay16& rays = packet.rays.ray;
+  for (int row = 0, i = 0; row < tile.rows; ++row) {
+    Color* pixels = image.row(tile.y + row) + tile.x;
+    for (int column = 0; column < tile.columns; ++column, ++i) {
+      if (packet.valid[i] == 0) {
+        if (tile.x + column < width_) pixels[column] = Color::Zero();
+        continue;
       }
-      world_.intersect8(valid.data(), packet);
-      for (int i = 0; i < kPacket && x0 + i < width_; ++i) {
-        Color& pixel = image.row(y)[x0 + i];
-        if (valid[static_cast<std::size_t>(i)] == 0) {
-          pixel = Color::Zero();
-          continue;
-        }
-        RTCHit hit{};
-        hit.Ng_x = packet.hit.Ng_x[i];
-        hit.Ng_y = packet.hit.Ng_y[i];
-        hit.Ng_z = packet.hit.Ng_z[i];
-        hit.u = packet.hit.u[i];
-        hit.v = packet.hit.v[i];
-        hit.primID = packet.hit.primID[i];
-        hit.geomID = packet.hit.geomID[i];
-        cone.direction = {packet.ray.dir_x[i], packet.ray.dir_y[i], packet.ray.dir_z[i]};
-        pixel = shade(cone, hit, packet.ray.tfar[i]);
-      }
+      const RTCHit hit = hit_of(packet.rays.hit, i);
+      const Cone cone{origin, {rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]}, 0.0f, pixel_spread_};
+      pixels[column] =
+          hit.geomID != RTC_INVALID_GEOMETRY_ID && !world_.body(hit.geomID).is_optical()
+              ? matte(cone, hit, rays.tfar[i], widths[i])
+              : shade(cone, hit, rays.tfar[i]);
     }
   }
 }
@@ -118,7 +124,13 @@ Color Tracer::radiance(const Cone& cone) {
 Color Tracer::shade(const Cone& cone, const RTCHit& hit, float distance) {
   if (hit.geomID == RTC_INVALID_GEOMETRY_ID) return background_;
   const Body& body = world_.body(hit.geomID);
-  if (!body.is_optical()) return matte(cone, hit, distance);
+  const auto plain = [&] {
+    const float width = (cone.width + cone.spread * distance) *
+                        slant(hit.Ng_x, hit.Ng_y, hit.Ng_z, cone.direction.x(), cone.direction.y(),
+                              cone.direction.z());
+    return matte(cone, hit, distance, width);
+  };
+  if (!body.is_optical()) return plain();
 
   const Eigen::Vector3f point = cone.origin + distance * cone.direction;
   const Eigen::Vector3f normal = world_.normal(hit, point);
@@ -127,30 +139,26 @@ Color Tracer::shade(const Cone& cone, const RTCHit& hit, float distance) {
   if (body.glass_ior > 0.0f) return through_glass(cone, body, point, normal, width, curvature);
   const Color mirrored = body.mirror * reflected(cone, point, normal, width, curvature);
   if (body.mirror == 1.0f) return mirrored;
-  return mirrored + (1.0f - body.mirror) * matte(cone, hit, distance);
+  return mirrored + (1.0f - body.mirror) * plain();
 }
 
-Color Tracer::matte(const Cone& cone, const RTCHit& hit, float distance) {
+Color Tracer::matte(const Cone& cone, const RTCHit& hit, float distance, float width) {
   const Body& body = world_.body(hit.geomID);
   const auto& [ia, ib, ic] = body.triangles[hit.primID];
   const SurfaceVertex& a = body.vertices[ia];
   const SurfaceVertex& b = body.vertices[ib];
   const SurfaceVertex& c = body.vertices[ic];
   const float wa = 1.0f - hit.u - hit.v;
-  Color light = wa * a.light + hit.u * b.light + hit.v * c.light;
+  Float4 light = wa * a.light + hit.u * b.light + hit.v * c.light;
   if (!traced_lights_.empty()) {
     const Eigen::Vector3f point = cone.origin + distance * cone.direction;
-    light += traced_light(point, world_.normal(hit, point));
+    light += to_float4(traced_light(point, world_.normal(hit, point)));
   }
-  if (!body.texture) return light;
+  if (!body.texture) return to_color(light);
 
   const Eigen::Vector2f uv = wa * a.uv + hit.u * b.uv + hit.v * c.uv;
-  // A slanted pixel is longer than wide on the surface; one round footprint of its area serves.
-  const Eigen::Vector3f geometric(hit.Ng_x, hit.Ng_y, hit.Ng_z);
-  const float cosine = std::abs(geometric.dot(cone.direction)) /
-                       std::sqrt(geometric.squaredNorm() * cone.direction.squaredNorm());
-  const float width = (cone.width + cone.spread * distance) / std::sqrt(std::max(cosine, 0.05f));
-  return light * body.texture->sample(uv.x(), uv.y(), width * body.tiles_per_metre[hit.primID]);
+  const float footprint = width * body.tiles_per_metre[hit.primID];
+  return to_color(light * body.texture->sample(uv.x(), uv.y(), footprint));
 }
 
 Color Tracer::traced_light(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) {

@@ -8,6 +8,7 @@
 
 #include "geometry/camera.h"
 #include "geometry/pose.h"
+#include "hal/sim/camera_rays.h"
 #include "hal/sim/color.h"
 #include "hal/sim/scene_spec.h"
 #include "hal/sim/world.h"
@@ -41,9 +42,12 @@ class Tracer {
     int surfaces = 0;           ///< mirrors and glass met so far
   };
 
+  void shade_tile(const CameraRays::Tile& tile, const RayPacket& packet,
+                  const Eigen::Vector3f& origin, LinearImage& image);
   Color radiance(const Cone& cone);
   Color shade(const Cone& cone, const RTCHit& hit, float distance);
-  Color matte(const Cone& cone, const RTCHit& hit, float distance);
+  /// `width` is the pixel's on the surface, slant included.
+  Color matte(const Cone& cone, const RTCHit& hit, float distance, float width);
   Color traced_light(const Eigen::Vector3f& point, const Eigen::Vector3f& normal);
   Color reflected(const Cone& cone, const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
                   float width, float curvature);
@@ -57,8 +61,7 @@ class Tracer {
   int refraction_depth_ = 0;
   int width_;
   float pixel_spread_;
-  std::vector<Eigen::Vector2f>
-      bearings_;  ///< per pixel, on z = 1; NaN where the lens shows nothing
+  CameraRays camera_rays_;
   RayCount rays_;
 };
 

@@ -112,10 +112,10 @@ void World::add_mesh(const ObjectSpec& spec, std::shared_ptr<const Motion> motio
 
   Body& body = *bodies_.back();
   const Eigen::Vector2f tiles_per_metre = tile_m.cwiseInverse().cast<float>();
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    body.vertices.push_back(
-        {mesh.uv[i].cwiseProduct(tiles_per_metre), mesh.normals[i], Color::Zero()});
+  for (const Eigen::Vector2f& uv : mesh.uv) {
+    body.vertices.push_back({Float4{}, uv.cwiseProduct(tiles_per_metre)});
   }
+  body.normals = std::move(mesh.normals);
   body.triangles = mesh.triangles;
   body.tiles_per_metre = texture_density(mesh);
   for (float& density : body.tiles_per_metre) density *= tiles_per_metre.maxCoeff();
@@ -142,20 +142,20 @@ void World::add_mesh(const ObjectSpec& spec, std::shared_ptr<const Motion> motio
 void World::bake(const std::vector<LightSpec>& lights) {
   for (const auto& body : bodies_) {
     for (std::size_t i = 0; i < body->vertices.size(); ++i) {
-      SurfaceVertex& vertex = body->vertices[i];
       // What moves receives the shadows of what does not; it casts none that stay behind.
-      vertex.light = baked_light(fixed_.get(), lights, body->positions[i], vertex.normal);
+      body->vertices[i].light =
+          to_float4(baked_light(fixed_.get(), lights, body->positions[i], body->normals[i]));
     }
     body->positions.clear();
   }
 }
 
-void World::intersect8(const int* valid, RTCRayHit8& rays) const {
+void World::intersect16(RayPacket& packet) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect8(valid, fixed_.get(), &context, &rays);
-  if (moves()) rtcIntersect8(valid, moving_.get(), &context, &rays);
+  rtcIntersect16(packet.valid, fixed_.get(), &context, &packet.rays);
+  if (moves()) rtcIntersect16(packet.valid, moving_.get(), &context, &packet.rays);
 }
 
 void World::intersect1(RTCRayHit& ray) const {
@@ -177,8 +177,8 @@ Eigen::Vector3f World::normal(const RTCHit& hit, const Eigen::Vector3f& point) c
   const Body& body = *bodies_[hit.geomID];
   if (body.is_exact_sphere) return (point - body.center).normalized();
   const auto& [a, b, c] = body.triangles[hit.primID];
-  const Eigen::Vector3f at_rest = (1.0f - hit.u - hit.v) * body.vertices[a].normal +
-                                  hit.u * body.vertices[b].normal + hit.v * body.vertices[c].normal;
+  const Eigen::Vector3f at_rest =
+      (1.0f - hit.u - hit.v) * body.normals[a] + hit.u * body.normals[b] + hit.v * body.normals[c];
   return (body.world_from_rest * at_rest).normalized();
 }
 

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "geometry/pose.h"
+#include "hal/sim/camera_rays.h"
+#include "hal/sim/float4.h"
 #include "hal/sim/mesh.h"
 #include "hal/sim/motion.h"
 #include "hal/sim/scene_spec.h"
@@ -21,15 +23,15 @@ namespace lumibox::hal::sim {
 
 /// A point of the surface as shading needs it.
 struct SurfaceVertex {
-  Eigen::Vector2f uv;      ///< tiles of the texture
-  Eigen::Vector3f normal;  ///< where the scene file put the object
-  Color light;             ///< irradiance / pi of all lights whose shadows are not traced
+  Float4 light;        ///< irradiance / pi of all lights whose shadows are not traced
+  Eigen::Vector2f uv;  ///< tiles of the texture
 };
 
 /// One object: what Embree does not know about it.
 struct Body {
   std::vector<Eigen::Vector3f> positions;  ///< at rest; only until the light is baked
-  std::vector<SurfaceVertex> vertices;     ///< at rest
+  std::vector<SurfaceVertex> vertices;
+  std::vector<Eigen::Vector3f> normals;  ///< of the vertices, where the scene file put the object
   Eigen::Matrix3f world_from_rest = Eigen::Matrix3f::Identity();  ///< turns normals with a mover
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<float> tiles_per_metre;      ///< per triangle, the largest stretch
@@ -51,8 +53,8 @@ class World {
  public:
   explicit World(const SceneSpec& spec);
 
-  /// Nearest hits of eight rays that begin together, of one ray; whether anything is in the way.
-  void intersect8(const int* valid, RTCRayHit8& rays) const;
+  /// Nearest hits of rays that begin together, of one ray; whether anything is in the way.
+  void intersect16(RayPacket& packet) const;
   void intersect1(RTCRayHit& ray) const;
   bool occluded1(RTCRay& ray) const;
 

@@ -1,0 +1,52 @@
+#include "hal/sim/camera_rays.h"
+
+#include <cmath>
+#include <limits>
+
+namespace lumibox::hal::sim {
+
+CameraRays::CameraRays(const geometry::Camera& camera)
+    : stride_((camera.width() + RayPacket::kSize - 1) / RayPacket::kSize * RayPacket::kSize) {
+  const auto pixels = static_cast<std::size_t>(stride_ * camera.height());
+  bearing_x_.assign(pixels, std::numeric_limits<float>::quiet_NaN());
+  bearing_y_ = bearing_x_;
+  for (int y = 0; y < camera.height(); ++y) {
+    for (int x = 0; x < camera.width(); ++x) {
+      const auto bearing = camera.unproject({x, y});
+      if (!bearing) continue;
+      const auto pixel = static_cast<std::size_t>(y * stride_ + x);
+      bearing_x_[pixel] = static_cast<float>(bearing->x());
+      bearing_y_[pixel] = static_cast<float>(bearing->y());
+    }
+  }
+}
+
+int CameraRays::fill(const Tile& tile, const geometry::Pose& world_from_camera,
+                     RayPacket& packet) const {
+  const Eigen::Matrix3f r = world_from_camera.matrix3().cast<float>();
+  const Eigen::Vector3f origin = world_from_camera.translation.cast<float>();
+  RTCRay16& ray = packet.rays.ray;
+  int valid = 0;
+  for (int row = 0, i = 0; row < tile.rows; ++row) {
+    const std::ptrdiff_t first = (tile.y + row) * stride_ + tile.x;
+    for (int column = 0; column < tile.columns; ++column, ++i) {
+      const float x = bearing_x_[static_cast<std::size_t>(first + column)];
+      const float y = bearing_y_[static_cast<std::size_t>(first + column)];
+      packet.valid[i] = std::isnan(x) ? 0 : -1;
+      valid += std::isnan(x) ? 0 : 1;
+      ray.org_x[i] = origin.x();
+      ray.org_y[i] = origin.y();
+      ray.org_z[i] = origin.z();
+      ray.dir_x[i] = r(0, 0) * x + r(0, 1) * y + r(0, 2);
+      ray.dir_y[i] = r(1, 0) * x + r(1, 1) * y + r(1, 2);
+      ray.dir_z[i] = r(2, 0) * x + r(2, 1) * y + r(2, 2);
+      ray.tnear[i] = 0.0f;
+      ray.tfar[i] = std::numeric_limits<float>::infinity();
+      ray.mask[i] = ~0u;
+      packet.rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    }
+  }
+  return valid;
+}
+
+}  // namespace lumibox::hal::sim
