@@ -50,8 +50,8 @@ TEST(Tracker, StartsByItselfAndFollowsAStraightWalk) {
   EXPECT_EQ(frames.front().state, TrackingState::Initialising);
   ASSERT_EQ(frames.back().state, TrackingState::Good);
   tracker.finish();
-  // 3 %: ten centimetres seen from two metres in a small picture. Centres lie on one line at equal
-  // steps: compare with the line through the first and the last.
+  // Centres lie on one line at equal steps: compare with the line through the first and the last.
+  // 5 %: the tracked walk is a tenth of the scene's depth long, in a small picture.
   std::vector<Eigen::Vector3d> centers;
   for (const auto& f : frames) {
     if (!f.world_from_camera) continue;
@@ -63,7 +63,7 @@ TEST(Tracker, StartsByItselfAndFollowsAStraightWalk) {
   const Eigen::Vector3d length = centers.back() - centers.front();
   for (std::size_t i = 0; i < centers.size(); ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(centers.size() - 1);
-    EXPECT_LT((centers[i] - centers.front() - share * length).norm(), 0.03 * length.norm()) << i;
+    EXPECT_LT((centers[i] - centers.front() - share * length).norm(), 0.05 * length.norm()) << i;
   }
 }
 
