@@ -41,7 +41,7 @@ TEST(CommandLineValues, WrongTypeAndRangeNameAssignmentAndWhatIsAllowed) {
   for (const char* value : {"", "x", "40.5", "0", "257", "nan", "40 ", "true", "0x10"}) {
     const std::string assignment = std::string("render.k=") + value;
     EXPECT_THAT(complaint_about(assignment),
-                AllOf(HasSubstr("--set " + assignment), HasSubstr("1 to 256")));
+                AllOf(HasSubstr("--set " + assignment), HasSubstr("1 to 128")));
   }
   for (const char* value : {"nan", "inf", "-1", "65"}) {
     const std::string assignment = std::string("render.exponent=") + value;

@@ -71,7 +71,7 @@ TEST_F(ConfigFile, WrongTypeNamesLineKeyAndWhatIsAllowed) {
   for (const char* value : {"'forty'", "40.0", "true", "[40]", "{}", "2020-01-01"}) {
     EXPECT_THAT(complaint_about(std::string("[render]\nk = ") + value + "\n"),
                 AllOf(StartsWith(at_line(2)), HasSubstr("render.k"),
-                      HasSubstr("expected a whole number from 1 to 256 (perspectives)")))
+                      HasSubstr("expected a whole number from 1 to 128 (perspectives)")))
         << value;
   }
   EXPECT_THAT(complaint_about("[log]\nlevel = 3\n"),
