@@ -21,10 +21,9 @@ CameraRays::CameraRays(const geometry::Camera& camera)
   }
 }
 
-int CameraRays::fill(const Tile& tile, const geometry::Pose& world_from_camera,
-                     RayPacket& packet) const {
-  const Eigen::Matrix3f r = world_from_camera.matrix3().cast<float>();
-  const Eigen::Vector3f origin = world_from_camera.translation.cast<float>();
+int CameraRays::fill(const Tile& tile, const Eigen::Matrix3f& world_from_camera,
+                     const Eigen::Vector3f& origin, RayPacket& packet) const {
+  const Eigen::Matrix3f& r = world_from_camera;
   RTCRay16& ray = packet.rays.ray;
   int valid = 0;
   for (int row = 0, i = 0; row < tile.rows; ++row) {

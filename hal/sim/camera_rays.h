@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "geometry/camera.h"
-#include "geometry/pose.h"
 
 namespace lumibox::hal::sim {
 
@@ -34,7 +33,8 @@ class CameraRays {
 
   /// Rays of a tile in row-major order, ready to be intersected. Not valid are those beyond the
   /// edge and where the lens shows nothing. Gives the number of valid ones.
-  int fill(const Tile& tile, const geometry::Pose& world_from_camera, RayPacket& packet) const;
+  int fill(const Tile& tile, const Eigen::Matrix3f& world_from_camera,
+           const Eigen::Vector3f& origin, RayPacket& packet) const;
 
  private:
   std::ptrdiff_t stride_;  ///< of a row, whole packets

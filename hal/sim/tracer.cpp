@@ -69,14 +69,16 @@ Tracer::Tracer(const World& world, const SceneSpec& spec, const geometry::Camera
 
 void Tracer::trace_rows(const geometry::Pose& world_from_camera, int begin, int end,
                         LinearImage& image) {
+  // A rolling shutter asks row by row; otherwise square tiles keep a packet's rays together.
   const int rows = (end - begin) % 4 == 0 ? 4 : 1;
   const int columns = RayPacket::kSize / rows;
+  const Eigen::Matrix3f rotation = world_from_camera.matrix3().cast<float>();
   const Eigen::Vector3f origin = world_from_camera.translation.cast<float>();
-  RayPacket packet;
+  RayPacket packet{};
   for (int y = begin; y < end; y += rows) {
     for (int x = 0; x < width_; x += columns) {
       const CameraRays::Tile tile{x, y, columns, rows};
-      rays_.camera += camera_rays_.fill(tile, world_from_camera, packet);
+      rays_.camera += camera_rays_.fill(tile, rotation, origin, packet);
       world_.intersect16(packet);
       shade_tile(tile, packet, origin, image);
     }
@@ -97,12 +99,14 @@ void Tracer::shade_tile(const CameraRays::Tile& tile, const RayPacket& packet,
       }
       const RTCHit hit = hit_of(packet.rays.hit, i);
       const Cone cone{origin, {rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]}, 0.0f, pixel_spread_};
-      pixels[column] =
-          hit.geomID != RTC_INVALID_GEOMETRY_ID && !world_.body(hit.geomID).is_optical()
-              ? matte(cone, hit, rays.tfar[i], widths[i])
-              : shade(cone, hit, rays.tfar[i]);
+      pixels[column] = is_matte(hit) ? matte(cone, hit, rays.tfar[i], widths[i])
+                                     : shade(cone, hit, rays.tfar[i]);
     }
   }
+}
+
+bool Tracer::is_matte(const RTCHit& hit) const {
+  return hit.geomID != RTC_INVALID_GEOMETRY_ID && !world_.body(hit.geomID).is_optical();
 }
 
 Color Tracer::radiance(const Cone& cone) {

@@ -44,6 +44,7 @@ class Tracer {
 
   void shade_tile(const CameraRays::Tile& tile, const RayPacket& packet,
                   const Eigen::Vector3f& origin, LinearImage& image);
+  bool is_matte(const RTCHit& hit) const;
   Color radiance(const Cone& cone);
   Color shade(const Cone& cone, const RTCHit& hit, float distance);
   /// `width` is the pixel's on the surface, slant included.
