@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/features2d.hpp>
 
+#include "tracking/opencv_view.h"
+
 namespace lumibox::tracking {
 namespace {
 
@@ -35,8 +37,7 @@ float shi_tomasi_score(const hal::Image& image, int x, int y) {
 void detect_on_level(const hal::Image& image, int level, int fast_threshold,
                      std::vector<Corner>& corners) {
   if (image.width() <= 2 * kBorder || image.height() <= 2 * kBorder) return;
-  const cv::Mat view(image.height(), image.width(), CV_8UC1,
-                     const_cast<std::uint8_t*>(image.data()));
+  const cv::Mat view = opencv_view(image);
   std::vector<cv::KeyPoint> candidates;
   cv::FAST(view, candidates, fast_threshold, true);
 

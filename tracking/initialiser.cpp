@@ -9,6 +9,7 @@
 #include "geometry/triangulation.h"
 #include "geometry/two_view.h"
 #include "tracking/corners.h"
+#include "tracking/opencv_view.h"
 #include "tracking/third_view.h"
 
 namespace lumibox::tracking {
@@ -18,10 +19,6 @@ constexpr std::size_t kMinCorners = 100;  // fewer do not cover a picture
 constexpr double kMinTrackShare = 0.4;    // of the first frame's corners; below, start again
 constexpr double kMinFlowShare = 0.008;   // of the picture's width: less is a still camera
 constexpr double kNoisePx = 0.7;          // of a followed corner, standard deviation
-
-cv::Mat as_mat(const hal::Image& image) {
-  return {image.height(), image.width(), CV_8UC1, const_cast<std::uint8_t*>(image.data())};
-}
 
 }  // namespace
 
@@ -59,8 +56,8 @@ void Initialiser::follow(const std::shared_ptr<const Pyramid>& frame) {
   std::vector<std::uint8_t> found;
   std::vector<std::uint8_t> found_back;
   std::vector<float> error;
-  const cv::Mat last = as_mat(last_->level(0));
-  const cv::Mat current = as_mat(frame->level(0));
+  const cv::Mat last = opencv_view(last_->level(0));
+  const cv::Mat current = opencv_view(frame->level(0));
   const cv::Size window(15, 15);
   cv::calcOpticalFlowPyrLK(last, current, before, after, found, error, window, 4);
   cv::calcOpticalFlowPyrLK(current, last, after, back, found_back, error, window, 4);

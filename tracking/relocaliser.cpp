@@ -6,6 +6,7 @@
 
 #include "geometry/absolute_pose.h"
 #include "tracking/corners.h"
+#include "tracking/opencv_view.h"
 
 namespace lumibox::tracking {
 namespace {
@@ -32,9 +33,7 @@ Described describe(const Pyramid& pyramid, const std::vector<Corner>& corners) {
                    31.0F * static_cast<float>(1 << c.level), 0.0F, c.score, c.level);
     keypoints.push_back(k);
   }
-  const hal::Image& image = pyramid.level(0);
-  const cv::Mat view(image.height(), image.width(), CV_8UC1,
-                     const_cast<std::uint8_t*>(image.data()));
+  const cv::Mat view = opencv_view(pyramid.level(0));
   Described result;
   orb->compute(view, keypoints, result.descriptors);
   for (const cv::KeyPoint& k : keypoints) {

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "geometry/rotation.h"
+#include "tracking/opencv_view.h"
 
 namespace lumibox::tracking {
 namespace {
@@ -76,10 +77,8 @@ double step_once(const SmallImage& last, const SmallImage& current, Warp& warp, 
 
 SmallImage::SmallImage(const Pyramid& pyramid) {
   const int level = pyramid.levels() - 1;
-  const hal::Image& top = pyramid.level(level);
-  cv::Mat image(top.height(), top.width(), CV_8UC1, const_cast<std::uint8_t*>(top.data()));
+  cv::Mat small = opencv_view(pyramid.level(level));
   scale_ = 1 << level;
-  cv::Mat small = image;
   while (small.cols > 60) {
     cv::Mat half;
     cv::resize(small, half, cv::Size(small.cols / 2, small.rows / 2), 0, 0, cv::INTER_AREA);
