@@ -1,11 +1,12 @@
 #include "app/auto_capture.h"
 
-#include <spdlog/spdlog.h>
+#include <fmt/core.h>
 
 #include <numbers>
 #include <utility>
 
 #include "app/placement.h"
+#include "config/log.h"
 
 namespace lumibox::app {
 
@@ -36,8 +37,9 @@ void AutoCapture::place(const Moment& moment) {
     recorder_.begin(sphere_on_ray(*ray, *depth, options_), moment, folder_);
     placed_ = true;
     if (subject_given_ && moment.frame.index != subject_.frame) {
-      spdlog::warn("frame {} is not tracked well; the subject is placed in frame {}",
-                   subject_.frame, moment.frame.index);
+      config::log_warning(
+          fmt::format("frame {} is not tracked well; the subject is placed in frame {}",
+                      subject_.frame, moment.frame.index));
     }
   }
 }

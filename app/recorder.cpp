@@ -1,11 +1,10 @@
 #include "app/recorder.h"
 
-#include <spdlog/spdlog.h>
-
 #include <cstddef>
 #include <utility>
 
 #include "config/error.h"
+#include "config/log.h"
 
 namespace lumibox::app {
 
@@ -61,7 +60,7 @@ void Recorder::open_store() {
     store_->set_subject(*light_field_.subject());
   } catch (const config::InputError& error) {
     open_error_ = error.what();
-    spdlog::error("{}", error.what());
+    config::log_error(error.what());
   }
 }
 

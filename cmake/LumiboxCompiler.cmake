@@ -3,7 +3,9 @@ set(LUMIBOX_SANITIZE "" CACHE STRING "Sanitizers, e.g. address,undefined or thre
 
 find_program(CCACHE ccache)
 if(CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE})
+  # Without this it refuses files that use precompiled headers.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
+      CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
 endif()
 
 add_library(lumibox_flags INTERFACE)

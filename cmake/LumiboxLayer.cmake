@@ -19,6 +19,7 @@ function(lumibox_layer)
   target_include_directories(${target} PUBLIC ${view})
   target_link_libraries(${target} PUBLIC ${L_USES} ${L_LIBRARIES}
                                   PRIVATE lumibox_flags ${L_PRIVATE_LIBRARIES})
+  target_precompile_headers(${target} REUSE_FROM lumibox_precompiled)
   if(L_COLD)
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()

@@ -1,44 +1,86 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
-#include <memory>
-#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
 
-#include "config/config.h"
+#include "app/auto_capture.h"
 #include "config/loader.h"
 
+/// The subcommands and what each can be told; command_line.cpp says it to the person. All throw
+/// config::InputError for input that they cannot use.
 namespace lumibox::app {
 
-/// Each adds one subcommand that does its work when the command line names it. Bad input throws
-/// config::InputError.
-void add_run(CLI::App& app);
-void add_demo(CLI::App& app);
-void add_track(CLI::App& app);
-void add_render(CLI::App& app);
-void add_evaluate(CLI::App& app);
-void add_import(CLI::App& app);
-void add_export(CLI::App& app);
-void add_sim(CLI::App& app);
+struct RunOptions {
+  config::Sources sources;
+};
+void run(const RunOptions& options);
 
-/// A subcommand with the options that all have (--config, --set), which end up in `sources`, and an
-/// example in its help.
-CLI::App* add_command(CLI::App& app, const char* name, const char* description, const char* example,
-                      config::Sources& sources);
+struct DemoOptions {
+  config::Sources sources;
+  std::filesystem::path out = "lumibox-demo";
+  double rate_hz = 15.0;
+};
+void demo(const DemoOptions& options);
 
-/// The configuration, with the log set to its level.
-config::Config load_config(const config::Sources& sources);
+struct TrackOptions {
+  config::Sources sources;
+  std::filesystem::path sequence;
+  std::filesystem::path out;
+  std::optional<std::filesystem::path> live;
+  std::optional<std::filesystem::path> json;
+  std::optional<std::filesystem::path> calibration;
+  std::optional<std::filesystem::path> capture;
+  std::optional<SubjectPixel> subject;  ///< none: the middle, as soon as possible
+  std::uint32_t seed = 0;
+  bool realtime = false;
+};
+void track(const TrackOptions& options);
 
-/// Writes a JSON file and the folder it is in; throws config::InputError if it cannot.
-void write_json(const std::filesystem::path& file, const nlohmann::json& json);
+struct RenderOptions {
+  config::Sources sources;
+  std::filesystem::path capture;
+  std::filesystem::path views;
+  std::filesystem::path out;
+  std::string mode = "small";
+  std::string geometry = "plane";
+  std::optional<int> k;
+  std::optional<double> exponent;
+  std::optional<std::filesystem::path> calibration;
+  bool reference = false;
+};
+void render_views(const RenderOptions& options);
 
-/// Makes the folder that a file is to be written into.
-void make_parent_folder(const std::filesystem::path& file);
+struct EvaluateOptions {
+  config::Sources sources;
+  std::filesystem::path capture;
+  std::optional<std::filesystem::path> json;
+  std::optional<std::filesystem::path> pictures;
+  bool reference = false;
+};
+void evaluate(const EvaluateOptions& options);
 
-/// Throws config::InputError if the folder holds something already.
-void refuse_used_folder(const std::filesystem::path& folder);
+struct ImportOptions {
+  config::Sources sources;
+  std::filesystem::path source;
+  std::filesystem::path capture;
+};
+void import_data_set(const ImportOptions& options);
 
-/// Makes a folder for results; throws config::InputError if it cannot be made.
-void make_folder(const std::filesystem::path& folder);
+struct ExportOptions {
+  config::Sources sources;
+  std::filesystem::path capture;
+  std::filesystem::path out;
+  std::string format;
+};
+void export_data_set(const ExportOptions& options);
+
+struct SimOptions {
+  config::Sources sources;
+  std::filesystem::path scene;
+  std::filesystem::path out;
+};
+void simulate(const SimOptions& options);
 
 }  // namespace lumibox::app

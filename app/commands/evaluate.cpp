@@ -1,4 +1,4 @@
-#include <spdlog/fmt/fmt.h>
+#include <fmt/core.h>
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/commands/commands.h"
+#include "app/commands/support.h"
 #include "app/painter.h"
 #include "app/progress.h"
 #include "config/error.h"
@@ -16,14 +17,6 @@
 
 namespace lumibox::app {
 namespace {
-
-struct EvaluateOptions {
-  config::Sources sources;
-  std::filesystem::path capture;
-  std::optional<std::filesystem::path> json;
-  std::optional<std::filesystem::path> pictures;
-  bool reference = false;
-};
 
 nlohmann::json to_json(const render::Quality& quality) {
   return {{"psnr", quality.psnr},
@@ -65,6 +58,8 @@ const char* name_of(const render::Settings& settings) {
   return settings.aperture == render::Aperture::Small ? "plane-small" : "plane-wide";
 }
 
+}  // namespace
+
 void evaluate(const EvaluateOptions& options) {
   const config::Config config = load_config(options.sources);
   const lightfield::Capture capture = lightfield::load_capture(options.capture);
@@ -101,22 +96,6 @@ void evaluate(const EvaluateOptions& options) {
   if (options.json) {
     write_json(*options.json, to_json(methods));
   }
-}
-
-}  // namespace
-
-void add_evaluate(CLI::App& app) {
-  auto options = std::make_shared<EvaluateOptions>();
-  CLI::App* command =
-      add_command(app, "evaluate", "How well each perspective can be rendered from all the others.",
-                  "lumibox evaluate walk_capture/ --json quality.json", options->sources);
-  command->add_option("CAPTURE", options->capture, "capture folder")->required();
-  command->add_option("--json", options->json, "one row per method, and the rows per view")
-      ->type_name("FILE");
-  command->add_option("--pictures", options->pictures, "folder for what was rendered")
-      ->type_name("DIR");
-  command->add_flag("--reference", options->reference, "the exact renderer on the CPU");
-  command->callback([options] { evaluate(*options); });
 }
 
 }  // namespace lumibox::app

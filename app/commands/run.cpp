@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "app/commands/commands.h"
+#include "app/commands/support.h"
 #include "app/loop.h"
 
 namespace lumibox::app {
@@ -13,9 +14,7 @@ void ask_to_stop(int) {
   stop_asked = 1;
 }
 
-struct RunOptions {
-  config::Sources sources;
-};
+}  // namespace
 
 void run(const RunOptions& options) {
   const config::Config config = load_config(options.sources);
@@ -32,17 +31,6 @@ void run(const RunOptions& options) {
               static_cast<long long>(statistics.late_ticks),
               static_cast<long long>(statistics.frames), static_cast<long long>(statistics.tracked),
               loop.recorder().light_field().perspectives().size());
-}
-
-}  // namespace
-
-void add_run(CLI::App& app) {
-  auto options = std::make_shared<RunOptions>();
-  CLI::App* command = add_command(
-      app, "run", "The box itself: camera, buttons and display as the configuration names them.",
-      "lumibox run --set 'devices.camera=replay:walk/' --set 'devices.buttons=script:presses.txt'",
-      options->sources);
-  command->callback([options] { run(*options); });
 }
 
 }  // namespace lumibox::app

@@ -1,5 +1,3 @@
-#include <spdlog/spdlog.h>
-
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -8,30 +6,19 @@
 
 #include "app/auto_capture.h"
 #include "app/commands/commands.h"
+#include "app/commands/support.h"
 #include "app/progress.h"
 #include "app/sight.h"
 #include "app/threading.h"
 #include "app/track_report.h"
 #include "app/trajectory.h"
 #include "config/error.h"
+#include "config/log.h"
 #include "hal/replay/replay_camera.h"
 #include "hal/system_clock.h"
 
 namespace lumibox::app {
 namespace {
-
-struct TrackOptions {
-  config::Sources sources;
-  std::filesystem::path sequence;
-  std::filesystem::path out;
-  std::optional<std::filesystem::path> live;
-  std::optional<std::filesystem::path> json;
-  std::optional<std::filesystem::path> calibration;
-  std::optional<std::filesystem::path> capture;
-  std::optional<std::string> subject;
-  std::uint32_t seed = 0;
-  bool realtime = false;
-};
 
 /// A frame with a pose, as it was known then and as it can be corrected later.
 struct Tracked {
@@ -45,26 +32,6 @@ struct Result {
   TrackReport report;
   std::vector<Tracked> frames;
 };
-
-/// Of `--subject U,V@FRAME`; none if it was not given.
-std::optional<SubjectPixel> subject_of(const TrackOptions& options) {
-  if (!options.subject) {
-    return std::nullopt;
-  }
-  const std::string& text = *options.subject;
-  SubjectPixel subject;
-  long long frame = -1;
-  int read = 0;
-  const int count = std::sscanf(text.c_str(), "%lf,%lf@%lld%n", &subject.pixel.x(),
-                                &subject.pixel.y(), &frame, &read);
-  if (count != 3 || frame < 0 || !subject.pixel.allFinite() ||
-      static_cast<std::size_t>(read) != text.size()) {
-    throw CLI::ValidationError("--subject",
-                               "found " + text + "; expected U,V@FRAME, e.g. 320,240@45");
-  }
-  subject.frame = frame;
-  return subject;
-}
 
 /// Until the recording is over: look, note, let the capture see it too.
 Result play(Sight& sight, hal::Camera& camera, hal::Clock& clock, AutoCapture* capture,
@@ -156,16 +123,18 @@ void finish_capture(const std::filesystem::path& folder, Recorder& recorder,
   const std::size_t perspectives = recorder.light_field().perspectives().size();
   json["perspectives"] = perspectives;
   if (!recorder.light_field().subject()) {
-    spdlog::warn("{}: no capture: no frame was tracked well enough to place the subject",
-                 folder.string());
+    config::log_warning(folder.string() +
+                        ": no capture: no frame was tracked well enough to place the subject");
     return;
   }
   std::printf("%zu perspectives in %s\n", perspectives, folder.c_str());
 }
 
+}  // namespace
+
 void track(const TrackOptions& options) {
   const config::Config config = load_config(options.sources);
-  const std::optional<SubjectPixel> subject = subject_of(options);
+  const std::optional<SubjectPixel> subject = options.subject;
   const hal::Sequence sequence = hal::open_sequence(options.sequence, options.calibration);
   const Threading threading = options.realtime ? kThreaded : kLockstep;
   const geometry::Camera model(sequence.profile);
@@ -206,39 +175,6 @@ void track(const TrackOptions& options) {
     throw config::InputError(options.sequence, std::string("no frame could be tracked: ") +
                                                    tracking::advice(result.report.last_reason()));
   }
-}
-
-}  // namespace
-
-void add_track(CLI::App& app) {
-  auto options = std::make_shared<TrackOptions>();
-  CLI::App* command =
-      add_command(app, "track", "Track a recording; write its trajectory and, if asked, a capture.",
-                  "lumibox track walk/ --out walk.tum --json walk.json --capture walk_capture/",
-                  options->sources);
-  command->add_option("SEQ", options->sequence, "sequence folder, folder of images, or video")
-      ->required();
-  command->add_option("--out", options->out, "trajectory with the final corrections (TUM)")
-      ->type_name("TRAJ.tum")
-      ->required();
-  command->add_option("--live", options->live, "trajectory as known when each frame was shown")
-      ->type_name("LIVE.tum");
-  command->add_option("--json", options->json, "statistics")->type_name("STATS");
-  command->add_option("--seed", options->seed, "of the random sampling")->type_name("N");
-  command->add_option("--calib", options->calibration, "calibration in place of the sequence's own")
-      ->type_name("CALIB.txt");
-  command->add_flag("--realtime", options->realtime,
-                    "play at the recorded rate; frames that come too fast are dropped");
-  CLI::Option* capture =
-      command->add_option("--capture", options->capture, "record a light field into this folder")
-          ->type_name("DIR");
-  command
-      ->add_option(
-          "--subject", options->subject,
-          "where the subject is: pixel and frame (default: the middle, as soon as possible)")
-      ->type_name("U,V@FRAME")
-      ->needs(capture);
-  command->callback([options] { track(*options); });
 }
 
 }  // namespace lumibox::app

@@ -1,6 +1,6 @@
 #include "app/modes/mode.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/core.h>
 
 #include <numbers>
 

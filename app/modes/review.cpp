@@ -1,6 +1,6 @@
 #include "app/modes/review.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <fmt/core.h>
 
 #include <numbers>
 

@@ -1,6 +1,6 @@
 #include "hal/replay/sequence.h"
 
-#include <spdlog/spdlog.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cctype>
@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "config/error.h"
+#include "config/log.h"
 #include "hal/image_io.h"
 #include "hal/replay/tum_files.h"
 #include "hal/replay/video_reader.h"
@@ -38,11 +39,11 @@ CameraProfile assume_profile(int width, int height, double fps, double field_of_
 
 void say_assumed(Sequence& sequence, double field_of_view_deg) {
   sequence.profile_assumed = true;
-  spdlog::warn(
-      "{}: no calibration; a horizontal field of view of {:.0f} degrees is assumed "
-      "(focal length {:.1f} pixels at {}x{}, {:.3g} frames per second)",
-      sequence.path.string(), field_of_view_deg, sequence.profile.fx, sequence.profile.width,
-      sequence.profile.height, sequence.profile.fps);
+  config::log_warning(
+      fmt::format("{}: no calibration; a horizontal field of view of {:.0f} degrees is assumed "
+                  "(focal length {:.1f} pixels at {}x{}, {:.3g} frames per second)",
+                  sequence.path.string(), field_of_view_deg, sequence.profile.fx,
+                  sequence.profile.width, sequence.profile.height, sequence.profile.fps));
 }
 
 void check_size(int width, int height, const CameraProfile& profile, const fs::path& picture,

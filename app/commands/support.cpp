@@ -1,30 +1,16 @@
-#include "app/commands/commands.h"
-
-#include <spdlog/spdlog.h>
+#include "app/commands/support.h"
 
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "config/error.h"
+#include "config/log.h"
 
 namespace lumibox::app {
 
-CLI::App* add_command(CLI::App& app, const char* name, const char* description, const char* example,
-                      config::Sources& sources) {
-  CLI::App* command = app.add_subcommand(name, description);
-  command->add_option("--config", sources.file, "configuration file (see lumibox.toml)")
-      ->type_name("FILE");
-  command
-      ->add_option("--set", sources.assignments, "one setting, e.g. --set capture.threshold_deg=3")
-      ->type_name("SECTION.KEY=VALUE")
-      ->allow_extra_args(false);
-  command->footer(std::string("Example:\n  ") + example);
-  return command;
-}
-
 config::Config load_config(const config::Sources& sources) {
   config::Config config = config::load(sources);
-  spdlog::set_level(spdlog::level::from_str(config.log.level));
+  config::set_log_level(config.log.level);
   return config;
 }
 

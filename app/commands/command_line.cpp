@@ -1,0 +1,205 @@
+#include "app/commands/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "app/commands/commands.h"
+#include "render/view.h"
+
+// The only file that knows CLI11, which takes long to compile.
+namespace lumibox::app {
+namespace {
+
+/// A subcommand with the options that all have, and an example in its help.
+template <typename Options>
+CLI::App* add_command(CLI::App& app, const char* name, const char* description, const char* example,
+                      const std::shared_ptr<Options>& options, void (*run)(const Options&)) {
+  CLI::App* command = app.add_subcommand(name, description);
+  command->add_option("--config", options->sources.file, "configuration file (see lumibox.toml)")
+      ->type_name("FILE");
+  command
+      ->add_option("--set", options->sources.assignments,
+                   "one setting, e.g. --set capture.threshold_deg=3")
+      ->type_name("SECTION.KEY=VALUE")
+      ->allow_extra_args(false);
+  command->footer(std::string("Example:\n  ") + example);
+  command->callback([options, run] { run(*options); });
+  return command;
+}
+
+void add_run(CLI::App& app) {
+  add_command(
+      app, "run", "The box itself: camera, buttons and display as the configuration names them.",
+      "lumibox run --set 'devices.camera=replay:walk/' --set 'devices.buttons=script:presses.txt'",
+      std::make_shared<RunOptions>(), run);
+}
+
+void add_demo(CLI::App& app) {
+  const auto options = std::make_shared<DemoOptions>();
+  CLI::App* command = add_command(
+      app, "demo", "A simulated box from the first picture to the review, without any hardware.",
+      "lumibox demo --out out/demo", options, demo);
+  command->add_option("--out", options->out, "folder for the pictures and the capture")
+      ->type_name("DIR")
+      ->capture_default_str();
+  command
+      ->add_option("--rate", options->rate_hz,
+                   "ticks per simulated second; the camera has 30, and fewer are over sooner")
+      ->type_name("HZ")
+      ->check(CLI::Range(5.0, 60.0))
+      ->capture_default_str();
+}
+
+SubjectPixel parse_subject(const std::string& text) {
+  SubjectPixel subject;
+  long long frame = -1;
+  int read = 0;
+  const int count = std::sscanf(text.c_str(), "%lf,%lf@%lld%n", &subject.pixel.x(),
+                                &subject.pixel.y(), &frame, &read);
+  if (count != 3 || frame < 0 || !subject.pixel.allFinite() ||
+      static_cast<std::size_t>(read) != text.size()) {
+    throw CLI::ValidationError("--subject",
+                               "found " + text + "; expected U,V@FRAME, e.g. 320,240@45");
+  }
+  subject.frame = frame;
+  return subject;
+}
+
+void add_track(CLI::App& app) {
+  const auto options = std::make_shared<TrackOptions>();
+  CLI::App* command =
+      add_command(app, "track", "Track a recording; write its trajectory and, if asked, a capture.",
+                  "lumibox track walk/ --out walk.tum --json walk.json --capture walk_capture/",
+                  options, track);
+  command->add_option("SEQ", options->sequence, "sequence folder, folder of images, or video")
+      ->required();
+  command->add_option("--out", options->out, "trajectory with the final corrections (TUM)")
+      ->type_name("TRAJ.tum")
+      ->required();
+  command->add_option("--live", options->live, "trajectory as known when each frame was shown")
+      ->type_name("LIVE.tum");
+  command->add_option("--json", options->json, "statistics")->type_name("STATS");
+  command->add_option("--seed", options->seed, "of the random sampling")->type_name("N");
+  command->add_option("--calib", options->calibration, "calibration in place of the sequence's own")
+      ->type_name("CALIB.txt");
+  command->add_flag("--realtime", options->realtime,
+                    "play at the recorded rate; frames that come too fast are dropped");
+  CLI::Option* capture =
+      command->add_option("--capture", options->capture, "record a light field into this folder")
+          ->type_name("DIR");
+  command
+      ->add_option_function<std::string>(
+          "--subject",
+          [options](const std::string& text) { options->subject = parse_subject(text); },
+          "where the subject is: pixel and frame (default: the middle, as soon as possible)")
+      ->type_name("U,V@FRAME")
+      ->needs(capture);
+}
+
+void add_render(CLI::App& app) {
+  const auto options = std::make_shared<RenderOptions>();
+  CLI::App* command = add_command(
+      app, "render", "Render a capture from the poses of a trajectory, one PNG per line.",
+      "lumibox render walk_capture/ --views views.tum --out pictures/ --mode wide", options,
+      render_views);
+  command->add_option("CAPTURE", options->capture, "capture folder")->required();
+  command->add_option("--views", options->views, "poses, world from camera, in the capture's world")
+      ->type_name("VIEWS.tum")
+      ->required();
+  command->add_option("--out", options->out, "folder for 000000.png and on")
+      ->type_name("DIR")
+      ->required();
+  command->add_option("--mode", options->mode, "aperture (thesis 3.2)")
+      ->check(CLI::IsMember({"small", "wide"}))
+      ->capture_default_str();
+  command->add_option("--k", options->k, "perspectives blended (default: render.k)")
+      ->check(CLI::Range(1, static_cast<int>(render::kMaxLayers)))
+      ->type_name("N");
+  command->add_option("--exponent", options->exponent, "of the weights (default: render.exponent)")
+      ->check(CLI::Range(0.0, 100.0))
+      ->type_name("X");
+  command->add_option("--geometry", options->geometry, "what the pictures are projected onto")
+      ->check(CLI::IsMember({"plane", "focal", "mesh"}))
+      ->capture_default_str();
+  command
+      ->add_option("--calib", options->calibration,
+                   "intrinsics of the views (default: the capture's, undistorted)")
+      ->type_name("CALIB.txt");
+  command->add_flag("--reference", options->reference, "the exact renderer on the CPU");
+}
+
+void add_evaluate(CLI::App& app) {
+  const auto options = std::make_shared<EvaluateOptions>();
+  CLI::App* command =
+      add_command(app, "evaluate", "How well each perspective can be rendered from all the others.",
+                  "lumibox evaluate walk_capture/ --json quality.json", options, evaluate);
+  command->add_option("CAPTURE", options->capture, "capture folder")->required();
+  command->add_option("--json", options->json, "one row per method, and the rows per view")
+      ->type_name("FILE");
+  command->add_option("--pictures", options->pictures, "folder for what was rendered")
+      ->type_name("DIR");
+  command->add_flag("--reference", options->reference, "the exact renderer on the CPU");
+}
+
+void add_import(CLI::App& app) {
+  const auto options = std::make_shared<ImportOptions>();
+  CLI::App* command =
+      add_command(app, "import", "Make a capture of a data set with known poses.",
+                  "lumibox import fox/transforms.json fox_capture/", options, import_data_set);
+  command
+      ->add_option("SOURCE", options->source,
+                   "nerfstudio or instant-ngp transforms.json, or a folder with a COLMAP model")
+      ->required();
+  command->add_option("CAPTURE", options->capture, "folder to be made")->required();
+}
+
+void add_export(CLI::App& app) {
+  const auto options = std::make_shared<ExportOptions>();
+  CLI::App* command = add_command(
+      app, "export", "Write a capture in the layout of another program.",
+      "lumibox export walk_capture/ --format colmap --out walk_colmap/", options, export_data_set);
+  command->add_option("CAPTURE", options->capture, "capture folder")->required();
+  command->add_option("--format", options->format, "layout")
+      ->check(CLI::IsMember({"nerfstudio", "colmap", "llff", "web"}))
+      ->required();
+  command->add_option("--out", options->out, "folder to be made")->type_name("PATH")->required();
+}
+
+void add_sim(CLI::App& app) {
+  const auto options = std::make_shared<SimOptions>();
+  CLI::App* command =
+      add_command(app, "sim", "Write a simulated recording with its ground truth.",
+                  "lumibox sim hal/sim/scenes/toy.toml --out toy/", options, simulate);
+  command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
+  command->add_option("--out", options->out, "sequence folder to be made")
+      ->type_name("SEQ")
+      ->required();
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app("Lumibox: walk around something, and a light field of it is on the screen.",
+               "lumibox");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", LUMIBOX_VERSION);
+  app.footer("`lumibox COMMAND --help` explains each command with an example.");
+  add_run(app);
+  add_demo(app);
+  add_track(app);
+  add_render(app);
+  add_evaluate(app);
+  add_import(app);
+  add_export(app);
+  add_sim(app);
+  try {
+    app.parse(argc, argv);  // runs the command named
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kBadUsage;
+  }
+}
+
+}  // namespace lumibox::app
