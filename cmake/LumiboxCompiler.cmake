@@ -1,5 +1,7 @@
 # Flags for our own code only; libraries are included as SYSTEM.
 set(LUMIBOX_SANITIZE "" CACHE STRING "Sanitizers, e.g. address,undefined or thread")
+# The build type of the sanitizer presets: assertions on, and lines enough to read a report.
+set(CMAKE_CXX_FLAGS_SANITIZED "-O1 -g1")
 
 find_program(CCACHE ccache)
 if(CCACHE)

@@ -18,12 +18,12 @@ class HeaderReader {
   /// The next decimal number, after white space and comments.
   std::int64_t number() {
     skip_space_and_comments();
+    constexpr int kMaxDigits = 9;
     std::int64_t value = 0;
     int digits = 0;
-    for (; at_digit(); ++position_, ++digits) {
+    for (; digits <= kMaxDigits && at_digit(); ++position_, ++digits) {
       value = value * 10 + (bytes_[position_] - '0');
     }
-    constexpr int kMaxDigits = 9;
     if (digits == 0 || digits > kMaxDigits) {
       throw config::InputError(name_, "damaged PGM/PPM header; expected width, height, 255");
     }
