@@ -8,6 +8,7 @@
 #include "app/painter.h"
 #include "app/trajectory.h"
 #include "render/image_quality.h"
+#include "render/leave_one_out.h"
 
 namespace lumibox::app {
 namespace {
@@ -20,6 +21,27 @@ double mean_distance(const std::vector<hal::StampedPose>& poses, const Eigen::Ve
     sum += (pose.world_from_camera.translation - point).norm();
   }
   return sum / static_cast<double>(poses.size());
+}
+
+/// A view that nobody recorded, and what the simulator sees there.
+struct Compared {
+  render::View view;
+  hal::Image actual;
+  hal::Image subject;  ///< 255 where the picture shows it
+};
+
+void say_likeness(const render::Method& method, const std::vector<Compared>& views,
+                  const std::vector<lightfield::Perspective>& perspectives, Painter& painter) {
+  double worst = std::numeric_limits<double>::infinity();
+  double sum = 0.0;
+  for (const Compared& compared : views) {
+    const hal::Image rendered = painter.paint(compared.view, perspectives, method.settings);
+    const double psnr = render::psnr(rendered, compared.actual, &compared.subject);
+    worst = std::min(worst, psnr);
+    sum += psnr;
+  }
+  std::printf("  %-12s %.1f dB (worst %.1f)\n", method.name.c_str(),
+              sum / static_cast<double>(views.size()), worst);
 }
 
 }  // namespace
@@ -48,27 +70,21 @@ void say_quality(const hal::Scene& scene, const Loop& loop) {
 
   const geometry::Camera camera = geometry::Camera(scene.profile()).undistorted();
   const geometry::Similarity estimate_from_truth = error->truth_from_estimate.inverse();
-  const render::Settings settings = render::settings_from(
-      loop.config().render, render::Aperture::Small, light_field.subject()->center);
-  Painter painter(Exactness::Fast);
-  double worst = std::numeric_limits<double>::infinity();
-  double sum = 0.0;
+  std::vector<Compared> views;
   for (std::size_t i = 0; i < kViews; ++i) {
     const std::size_t before = (2 * i + 1) * (truth.size() - 1) / (2 * kViews);
     const double time_s = 0.5 * (truth[before].timestamp_s + truth[before + 1].timestamp_s);
-    const render::View true_view{camera, scene.world_from_camera(time_s)};
-    const render::View view{camera, estimate_from_truth * true_view.world_from_camera};
-    const hal::Image rendered = painter.paint(view, perspectives, settings);
-    const hal::Image actual = scene.render_ideal(camera, true_view.world_from_camera, time_s);
-    const hal::Image mask = scene.subject_mask(camera, true_view.world_from_camera, time_s);
-    const double psnr = render::psnr(rendered, actual, &mask);
-    worst = std::min(worst, psnr);
-    sum += psnr;
+    const geometry::Pose pose = scene.world_from_camera(time_s);
+    views.push_back({{camera, estimate_from_truth * pose},
+                     scene.render_ideal(camera, pose, time_s),
+                     scene.subject_mask(camera, pose, time_s)});
   }
-  std::printf(
-      "%zu views between them, against the simulator's own: %.1f dB on the subject "
-      "(worst %.1f dB)\n",
-      kViews, sum / static_cast<double>(kViews), worst);
+  std::printf("%zu views between them, against the simulator's own, on the subject:\n", kViews);
+  Painter painter(Exactness::Fast);
+  for (const render::Method& method :
+       render::compared_methods(loop.config().render, light_field.subject()->center)) {
+    say_likeness(method, views, perspectives, painter);
+  }
 }
 
 }  // namespace lumibox::app

@@ -11,18 +11,8 @@ namespace {
 
 using lightfield::Perspective;
 
-struct Method {
-  std::string name;
-  Settings settings;
-};
-
-std::vector<Method> methods(const config::Render& options, const Eigen::Vector3d& focus) {
-  Settings nearest = settings_from(options, Aperture::Small, focus);
-  nearest.k = 1;
-  return {{"nearest", nearest},
-          {"plane-small", settings_from(options, Aperture::Small, focus)},
-          {"plane-wide", settings_from(options, Aperture::Wide, focus)}};
-}
+/// The weight of a perspective at half the limit's angle is a millionth.
+constexpr double kSharpExponent = 20.0;
 
 hal::Image both(hal::Image a, const hal::Image& b) {
   for (std::size_t i = 0; i < a.size_bytes(); ++i) a.data()[i] &= b.data()[i];
@@ -49,6 +39,18 @@ Quality mean_of(const std::vector<ViewQuality>& views) {
 
 }  // namespace
 
+std::vector<Method> compared_methods(const config::Render& options, const Eigen::Vector3d& focus) {
+  Settings nearest = settings_from(options, Aperture::Small, focus);
+  nearest.k = 1;
+  const Settings wide = settings_from(options, Aperture::Wide, focus);
+  Settings sharp = wide;
+  sharp.exponent = kSharpExponent;
+  return {{"nearest", nearest},
+          {"plane-small", settings_from(options, Aperture::Small, focus)},
+          {"plane-wide", wide},
+          {"plane-sharp", sharp}};
+}
+
 UndistortedPicture undistort(const Perspective& perspective) {
   const geometry::Camera& camera = *perspective.camera;
   const geometry::Camera pinhole = camera.undistorted();
@@ -74,7 +76,7 @@ std::vector<MethodQuality> leave_one_out(const std::vector<Perspective>& perspec
                                          const lightfield::Sphere& subject,
                                          const config::Render& options, const RenderView& render,
                                          const std::function<void(std::size_t)>& each_view) {
-  const std::vector<Method> compared = methods(options, subject.center);
+  const std::vector<Method> compared = compared_methods(options, subject.center);
   std::vector<MethodQuality> results;
   for (const Method& method : compared) results.push_back({method.name, {}, {}});
 
@@ -88,7 +90,7 @@ std::vector<MethodQuality> leave_one_out(const std::vector<Perspective>& perspec
     const UndistortedPicture truth = undistort(left_out);
     const hal::Image on_subject = both(subject_mask(view, subject), truth.valid);
     for (std::size_t m = 0; m < compared.size(); ++m) {
-      const hal::Image picture = render(view, others, compared[m].settings);
+      const hal::Image picture = render(view, others, compared[m]);
       results[m].views.push_back(
           {left_out.id,
            left_out.file,

@@ -25,15 +25,26 @@ struct ViewQuality {
   Quality quality;
 };
 
+/// A way to reconstruct a view.
+struct Method {
+  std::string name;
+  Settings settings;
+};
+
+/// What is compared: `nearest`, the nearest picture alone on its plane; `plane-small` and
+/// `plane-wide`, the apertures as the person sees them; `plane-sharp`, the wide aperture with so
+/// high an exponent that only the nearest few count (thesis 3.2: a large depth of field).
+std::vector<Method> compared_methods(const config::Render& options, const Eigen::Vector3d& focus);
+
 struct MethodQuality {
-  std::string method;  ///< nearest, plane-small, plane-wide
-  Quality mean;        ///< over the views that had something to compare
+  std::string method;
+  Quality mean;  ///< over the views that had something to compare
   std::vector<ViewQuality> views;
 };
 
 /// The renderer to be judged: the GL one or the reference.
 using RenderView = std::function<hal::Image(
-    const View&, const std::vector<lightfield::Perspective>&, const Settings&)>;
+    const View&, const std::vector<lightfield::Perspective>&, const Method&)>;
 
 /// A perspective's picture without its lens's distortion, at the same focal length and size.
 struct UndistortedPicture {
@@ -44,8 +55,8 @@ UndistortedPicture undistort(const lightfield::Perspective& perspective);
 
 /// For each perspective in turn: its view rendered from all others, compared with its own
 /// undistorted photograph wherever that has pixels. Pixels that no other perspective covers stay
-/// black and count in full: that is what the person would see. `nearest` is the nearest picture
-/// alone on its plane. `each_view`, if set, is called before each view with its index.
+/// black and count in full: that is what the person would see. `each_view`, if set, is called
+/// before each view with its index.
 std::vector<MethodQuality> leave_one_out(const std::vector<lightfield::Perspective>& perspectives,
                                          const lightfield::Sphere& subject,
                                          const config::Render& options, const RenderView& render,

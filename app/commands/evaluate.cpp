@@ -51,13 +51,6 @@ void print_table(const std::vector<render::MethodQuality>& methods) {
   }
 }
 
-const char* name_of(const render::Settings& settings) {
-  if (settings.k == 1) {
-    return "nearest";
-  }
-  return settings.aperture == render::Aperture::Small ? "plane-small" : "plane-wide";
-}
-
 }  // namespace
 
 void evaluate(const EvaluateOptions& options) {
@@ -74,11 +67,10 @@ void evaluate(const EvaluateOptions& options) {
   std::size_t current = 0;
   const auto render_view = [&](const render::View& view,
                                const std::vector<lightfield::Perspective>& others,
-                               const render::Settings& settings) {
-    hal::Image picture = painter.paint(view, others, settings);
+                               const render::Method& method) {
+    hal::Image picture = painter.paint(view, others, method.settings);
     if (options.pictures) {
-      const std::string name =
-          fmt::format("{:06}-{}.png", perspectives[current].id, name_of(settings));
+      const std::string name = fmt::format("{:06}-{}.png", perspectives[current].id, method.name);
       hal::write_png(*options.pictures / name, picture);
     }
     return picture;

@@ -23,10 +23,21 @@ LinearImage halved(const LinearImage& fine) {
   return coarse;
 }
 
-/// std::floor is a library call on processors of the baseline; |x| must be below 2^31.
-int floor_to_int(float x) {
-  const int truncated = static_cast<int>(x);
-  return truncated - (x < static_cast<float>(truncated) ? 1 : 0);
+/// Steps that a texel is divided into: a whole number of them splits into texel and fraction
+/// without a branch.
+constexpr int kStepBits = 8;
+constexpr float kSteps = 1 << kStepBits;
+
+/// Between texel centres: index of the lower one, to be wrapped, and how far beyond it.
+struct Position {
+  std::uint32_t index;
+  float fraction;
+};
+Position position(float tiles, float texels_per_tile) {
+  const auto steps =
+      static_cast<std::int64_t>(std::lrint((tiles * texels_per_tile - 0.5f) * kSteps));
+  return {static_cast<std::uint32_t>(steps >> kStepBits),
+          static_cast<float>(steps & ((1 << kStepBits) - 1)) * (1.0f / kSteps)};
 }
 
 /// Logarithm to base 2 of x >= 1, exact at powers of two and linear between: what blends levels
@@ -38,25 +49,10 @@ float log2_piecewise(float x) {
   return static_cast<float>(exponent) + (mantissa - 1.0f);
 }
 
-std::size_t as_index(int i) {
-  return static_cast<std::size_t>(i);
-}
-
-/// Where the bits of 0 ... size - 1 come to lie when they take turns with the bits of the numbers
-/// below `other_size`; `second` takes the later turn. Both are powers of two.
-std::vector<std::uint32_t> interleaved(int size, int other_size, bool second) {
-  std::vector<std::uint32_t> places(static_cast<std::size_t>(size));
-  for (int i = 0; i < size; ++i) {
-    std::uint32_t place = 0;
-    for (int bit = 0, at = 0; (1 << bit) < size; ++bit) {
-      const bool other_first = second && (1 << bit) < other_size;
-      if (other_first) ++at;
-      place |= ((static_cast<std::uint32_t>(i) >> bit) & 1u) << at++;
-      if (!second && (1 << bit) < other_size) ++at;
-    }
-    places[static_cast<std::size_t>(i)] = place;
-  }
-  return places;
+/// Weight of the coarser of two levels, from how far the wanted one lies between them. Near a level
+/// that level alone will do: half of all look-ups are spared the other.
+float blend_of(float fraction) {
+  return std::clamp(2.0f * fraction - 0.5f, 0.0f, 1.0f);
 }
 
 }  // namespace
@@ -75,15 +71,16 @@ Texture::Level Texture::level_of(const LinearImage& image) {
   const auto narrowed = [](float linear) {
     return static_cast<std::uint16_t>(std::clamp(linear, 0.0f, 1.0f) * 65535.0f + 0.5f);
   };
-  Level level{image.width, image.height, interleaved(image.width, image.height, false),
-              interleaved(image.height, image.width, true),
-              std::vector<Texel>(image.pixels.size())};
-  for (int y = 0; y < image.height; ++y) {
-    Texel* row = level.texels.data() + level.row_place[static_cast<std::size_t>(y)];
-    for (int x = 0; x < image.width; ++x) {
-      const Color& c = image.row(y)[x];
-      row[level.column_place[static_cast<std::size_t>(x)]] =
-          Texel{narrowed(c[0]), narrowed(c[1]), narrowed(c[2]), 0};
+  Level level;
+  level.width = static_cast<std::uint32_t>(image.width);
+  level.height = static_cast<std::uint32_t>(image.height);
+  level.blocks_per_row = (level.width + 3) / 4;
+  level.texels.resize(std::size_t{16} * level.blocks_per_row * ((level.height + 3) / 4));
+  for (std::uint32_t y = 0; y < level.height; ++y) {
+    const Color* row = image.row(static_cast<int>(y));
+    for (std::uint32_t x = 0; x < level.width; ++x) {
+      level.texels[level.row_place(y) + Level::column_place(x)] =
+          Texel{narrowed(row[x][0]), narrowed(row[x][1]), narrowed(row[x][2]), 0};
     }
   }
   return level;
@@ -96,21 +93,19 @@ Float4 Texture::floats(const Texel& texel) {
 }
 
 Float4 Texture::bilinear(const Level& level, float u, float v) {
-  const float x = u * static_cast<float>(level.width) - 0.5f;
-  const float y = v * static_cast<float>(level.height) - 0.5f;
-  const int column = floor_to_int(x);
-  const int row = floor_to_int(y);
-  const float fx = x - static_cast<float>(column);
-  const float fy = y - static_cast<float>(row);
+  const auto [column, fx] = position(u, static_cast<float>(level.width));
+  const auto [row, fy] = position(v, static_cast<float>(level.height));
   // Sizes are powers of two: masking repeats the tile, to negative coordinates too.
-  const std::uint32_t x0 = level.column_place[as_index(column & (level.width - 1))];
-  const std::uint32_t x1 = level.column_place[as_index((column + 1) & (level.width - 1))];
-  const Texel* upper = level.texels.data() + level.row_place[as_index(row & (level.height - 1))];
-  const Texel* lower =
-      level.texels.data() + level.row_place[as_index((row + 1) & (level.height - 1))];
-
-  const Float4 left = floats(upper[x0]) + fy * (floats(lower[x0]) - floats(upper[x0]));
-  const Float4 right = floats(upper[x1]) + fy * (floats(lower[x1]) - floats(upper[x1]));
+  const std::uint32_t x0 = Level::column_place(column & (level.width - 1));
+  const std::uint32_t x1 = Level::column_place((column + 1) & (level.width - 1));
+  const Texel* upper = level.texels.data() + level.row_place(row & (level.height - 1));
+  const Texel* lower = level.texels.data() + level.row_place((row + 1) & (level.height - 1));
+  const Float4 upper_left = floats(upper[x0]);
+  const Float4 upper_right = floats(upper[x1]);
+  const Float4 lower_left = floats(lower[x0]);
+  const Float4 lower_right = floats(lower[x1]);
+  const Float4 left = upper_left + fy * (lower_left - upper_left);
+  const Float4 right = upper_right + fy * (lower_right - upper_right);
   return left + fx * (right - left);
 }
 
@@ -119,9 +114,9 @@ Float4 Texture::sample(float u, float v, float footprint) const {
   const float level = log2_piecewise(std::max(footprint * base_texels_, 1.0f));
   const auto last = levels_.size() - 1;
   const auto fine = std::min(static_cast<std::size_t>(level), last);
-  Float4 color = bilinear(levels_[fine], u, v);
-  if (fine < last) {
-    const float blend = level - static_cast<float>(fine);
+  const float blend = fine < last ? blend_of(level - static_cast<float>(fine)) : 0.0f;
+  Float4 color = bilinear(levels_[blend < 1.0f ? fine : fine + 1], u, v);
+  if (blend > 0.0f && blend < 1.0f) {
     color += blend * (bilinear(levels_[fine + 1], u, v) - color);
   }
   return color * (1.0f / 65535.0f);

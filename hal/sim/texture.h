@@ -15,7 +15,8 @@ class Texture {
   /// `base` is in linear light; width and height must be powers of two.
   explicit Texture(const LinearImage& base);
 
-  /// Linear light at (u, v), in tiles; `footprint` is the width of the asking pixel in tiles.
+  /// Linear light at (u, v), in tiles, to 1/256 of a texel; `footprint` is the width of the asking
+  /// pixel in tiles.
   Float4 sample(float u, float v, float footprint) const;
 
  private:
@@ -23,14 +24,19 @@ class Texture {
   /// is steepest. The fourth value only makes a texel as wide as a vector register wants it.
   using Texel = std::uint16_t __attribute__((vector_size(8)));
 
-  /// Texels in Morton order: neighbours in the picture are neighbours in memory, whichever way the
-  /// surface is turned. The texel (x, y) is at column_place[x] + row_place[y].
+  /// Texels in blocks of four by four, two cache lines each: neighbours in the picture are
+  /// neighbours in memory, whichever way the surface is turned.
   struct Level {
-    int width = 1;
-    int height = 1;
-    std::vector<std::uint32_t> column_place;
-    std::vector<std::uint32_t> row_place;
+    std::uint32_t width = 1;
+    std::uint32_t height = 1;
+    std::uint32_t blocks_per_row = 1;
     std::vector<Texel> texels;
+
+    /// The texel (x, y) lies at row_place(y) + column_place(x); both are within the level.
+    std::uint32_t row_place(std::uint32_t y) const {
+      return ((y >> 2) * blocks_per_row) << 4 | (y & 3) << 2;
+    }
+    static std::uint32_t column_place(std::uint32_t x) { return (x >> 2) << 4 | (x & 3); }
   };
 
   static Level level_of(const LinearImage& image);

@@ -7,6 +7,12 @@
 
 #include "hal/sim/light_bake.h"
 
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define LUMIBOX_FOR_NEWER_PROCESSORS [[gnu::target_clones("default", "avx2"), gnu::flatten]]
+#else
+#define LUMIBOX_FOR_NEWER_PROCESSORS
+#endif
+
 namespace lumibox::hal::sim {
 namespace {
 
@@ -67,6 +73,9 @@ Tracer::Tracer(const World& world, const SceneSpec& spec, const geometry::Camera
   }
 }
 
+// Compiled twice, with what it calls: the wider registers of newer processors save a tenth. Neither
+// contracts products and sums, so both make the same picture.
+LUMIBOX_FOR_NEWER_PROCESSORS
 void Tracer::trace_rows(const geometry::Pose& world_from_camera, int begin, int end,
                         LinearImage& image) {
   // A rolling shutter asks row by row; otherwise square tiles keep a packet's rays together.

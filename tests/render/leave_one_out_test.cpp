@@ -18,19 +18,20 @@ TEST(LeaveOneOut, ComparesEachViewWithoutItself) {
   std::size_t views = 0;
   const auto results = leave_one_out(
       perspectives, kSubject, {},
-      [&](const View& view, const std::vector<Perspective>& others, const Settings& settings) {
+      [&](const View& view, const std::vector<Perspective>& others, const Method& method) {
         EXPECT_EQ(others.size(), 4U);
         for (const Perspective& other : others) {
           EXPECT_NE(other.center(), view.world_from_camera.translation);
         }
-        return render_reference(view, others, settings);
+        return render_reference(view, others, method.settings);
       },
       [&](std::size_t index) { EXPECT_EQ(index, views++); });
   EXPECT_EQ(views, 5U);
-  ASSERT_EQ(results.size(), 3U);
+  ASSERT_EQ(results.size(), 4U);
   EXPECT_EQ(results[0].method, "nearest");
   EXPECT_EQ(results[1].method, "plane-small");
   EXPECT_EQ(results[2].method, "plane-wide");
+  EXPECT_EQ(results[3].method, "plane-sharp");
   for (const MethodQuality& result : results) {
     ASSERT_EQ(result.views.size(), 5U);
     double sum = 0.0;
@@ -57,10 +58,14 @@ TEST(LeaveOneOut, TheTruthScoresBest) {
 }
 
 TEST(LeaveOneOut, FewPerspectivesAreNoError) {
-  EXPECT_EQ(leave_one_out({}, kSubject, {}, render_reference).size(), 3U);
+  const RenderView reference = [](const View& view, const std::vector<Perspective>& others,
+                                  const Method& method) {
+    return render_reference(view, others, method.settings);
+  };
+  EXPECT_EQ(leave_one_out({}, kSubject, {}, reference).size(), 4U);
   const auto one =
       test::random_capture(test::textured_ball(1.0), test::make_camera(48, 36), 1, 4.0, 0.3, 9);
-  EXPECT_EQ(leave_one_out(one, kSubject, {}, render_reference)[0].views.size(), 1U);
+  EXPECT_EQ(leave_one_out(one, kSubject, {}, reference)[0].views.size(), 1U);
 }
 
 TEST(Undistort, MarksWhatTheLensDidNotSee) {
