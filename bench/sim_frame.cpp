@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/robust.h"
 #include "hal/sim/scene.h"
 #include "hal/sim/sim_camera.h"
 #include "hal/sim/virtual_clock.h"
@@ -26,12 +27,6 @@ double cpu_ms() {
   std::timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 nlohmann::json measure(const std::string& name, std::int64_t wanted_frames) {
@@ -60,7 +55,7 @@ nlohmann::json measure(const std::string& name, std::int64_t wanted_frames) {
           {"scene", name},
           {"frames", frame_ms.size()},
           {"load_ms", load_ms},
-          {"ms_median", frame_ms.empty() ? 0.0 : median(frame_ms)},
+          {"ms_median", geometry::median(frame_ms)},
           {"camera_rays", cost.camera_rays},
           {"secondary_rays", cost.secondary_rays}};
 }

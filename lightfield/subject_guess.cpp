@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "geometry/robust.h"
+
 namespace lumibox::lightfield {
 namespace {
 
@@ -12,13 +14,6 @@ constexpr double kRadiusShare = 0.35;
 
 Eigen::Vector3d optical_axis(const Perspective& perspective) {
   return perspective.world_from_camera.rotation * Eigen::Vector3d::UnitZ();
-}
-
-/// Middle one of a set that is not empty.
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// Minimises the sum of squared distances to the axes: (sum of I - d d^T) x = sum of (I - d d^T) c.
@@ -66,7 +61,7 @@ Eigen::Vector3d before_the_middle(const std::vector<Perspective>& perspectives,
     const double depth = direction.dot(point - middle);
     if (depth > 0.0) depths.push_back(depth);
   }
-  if (!depths.empty()) return middle + median(std::move(depths)) * direction;
+  if (!depths.empty()) return middle + geometry::median(std::move(depths)) * direction;
   double spread = 0.0;
   for (const Perspective& perspective : perspectives) {
     spread = std::max(spread, (perspective.center() - middle).norm());
@@ -86,7 +81,7 @@ Sphere guess_subject(const std::vector<Perspective>& perspectives,
   for (const Perspective& perspective : perspectives) {
     distances.push_back((perspective.center() - *center).norm());
   }
-  const double distance = median(std::move(distances));
+  const double distance = geometry::median(std::move(distances));
   return {*center, distance > 0.0 ? kRadiusShare * distance : 1.0};
 }
 

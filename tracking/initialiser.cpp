@@ -6,6 +6,7 @@
 #include <numbers>
 #include <opencv2/video/tracking.hpp>
 
+#include "geometry/robust.h"
 #include "geometry/triangulation.h"
 #include "geometry/two_view.h"
 #include "tracking/corners.h"
@@ -78,9 +79,7 @@ void Initialiser::follow(const std::shared_ptr<const Pyramid>& frame) {
 double Initialiser::median_flow_px() const {
   std::vector<double> flow;
   for (const Track& t : tracks_) flow.push_back((t.current - t.first).norm());
-  const auto middle = flow.begin() + static_cast<std::ptrdiff_t>(flow.size() / 2);
-  std::nth_element(flow.begin(), middle, flow.end());
-  return *middle;
+  return geometry::median(std::move(flow));
 }
 
 Initialiser::Progress Initialiser::add(const std::shared_ptr<const Pyramid>& frame) {
@@ -185,9 +184,7 @@ Initialiser::Progress Initialiser::make_map(const std::shared_ptr<const Pyramid>
   if (map.points.size() < static_cast<std::size_t>(options_.init_min_inliers)) {
     return {std::nullopt, TrackingReason::MoveSideways};
   }
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  const double scale = 1.0 / *middle;
+  const double scale = 1.0 / geometry::median(std::move(depths));
   map.second_from_first.translation *= scale;
   for (InitialMap::Point& p : map.points) p.position *= scale;
   return {std::move(map), TrackingReason::None};

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "geometry/robust.h"
+
 namespace lumibox::tracking {
 namespace {
 
@@ -51,17 +53,14 @@ void Map::remove_point(PointId id) {
 }
 
 void Map::update_depths() {
-  std::vector<double> depths;
   for (Keyframe& k : keyframes_) {
     const geometry::Pose camera_from_world = k.world_from_camera.inverse();
-    depths.clear();
+    std::vector<double> depths;
     for (const PointId id : k.points) {
       depths.push_back((camera_from_world * point(id).position).z());
     }
-    if (depths.empty()) continue;
-    const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-    std::nth_element(depths.begin(), middle, depths.end());
-    if (*middle > 0.0) k.median_depth = *middle;
+    const double median = geometry::median(std::move(depths));
+    if (median > 0.0) k.median_depth = median;
   }
 }
 

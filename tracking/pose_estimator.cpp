@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/robust.h"
+
 namespace lumibox::tracking {
 namespace {
 
@@ -36,16 +38,15 @@ Residual residual_of(const geometry::Camera& camera, const Measurement& m,
   return r;
 }
 
-double robust_sigma(const std::vector<Residual>& residuals, std::vector<double>& scratch) {
-  scratch.clear();
+double robust_sigma(const std::vector<Residual>& residuals) {
+  std::vector<double> lengths;
+  lengths.reserve(residuals.size());
   for (const Residual& r : residuals) {
-    if (r.valid) scratch.push_back(r.error.norm());
+    if (r.valid) lengths.push_back(r.error.norm());
   }
-  if (scratch.empty()) return kMaxSigma;
-  const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(scratch.size() / 2);
-  std::nth_element(scratch.begin(), middle, scratch.end());
+  if (lengths.empty()) return kMaxSigma;
   // The median length of a 2D Gaussian is 1.1774 sigma.
-  return std::clamp(*middle / 1.1774, kMinSigma, kMaxSigma);
+  return std::clamp(geometry::median(std::move(lengths)) / 1.1774, kMinSigma, kMaxSigma);
 }
 
 }  // namespace
@@ -54,19 +55,18 @@ PoseEstimate estimate_pose(const geometry::Camera& camera, std::span<Measurement
                            const geometry::Pose& start, int iterations) {
   PoseEstimate estimate{start, 0, kMaxSigma};
   std::vector<Residual> residuals(measurements.size());
-  std::vector<double> scratch;
   for (int iteration = 0; iteration < iterations; ++iteration) {
     for (std::size_t i = 0; i < measurements.size(); ++i) {
       residuals[i] = residual_of(camera, measurements[i], estimate.camera_from_world);
     }
-    estimate.sigma_px = robust_sigma(residuals, scratch);
-    const double cutoff2 = std::pow(kTukey * estimate.sigma_px, 2);
+    estimate.sigma_px = robust_sigma(residuals);
+    const double cutoff = kTukey * estimate.sigma_px;
     geometry::Matrix6d hessian = geometry::Matrix6d::Identity() * 1e-9;
     geometry::Vector6d gradient = geometry::Vector6d::Zero();
     for (const Residual& r : residuals) {
-      const double error2 = r.error.squaredNorm();
-      if (!r.valid || error2 >= cutoff2) continue;
-      const double weight = std::pow(1.0 - error2 / cutoff2, 2);
+      if (!r.valid) continue;
+      const double weight = geometry::tukey_weight(r.error.norm(), cutoff);
+      if (weight == 0.0) continue;
       hessian.noalias() += weight * r.jacobian.transpose() * r.jacobian;
       gradient.noalias() += weight * r.jacobian.transpose() * r.error;
     }
@@ -75,11 +75,10 @@ PoseEstimate estimate_pose(const geometry::Camera& camera, std::span<Measurement
     estimate.camera_from_world = geometry::exp_se3(step) * estimate.camera_from_world;
     if (step.squaredNorm() < 1e-14) break;
   }
-  const double cutoff2 = std::pow(kTukey * estimate.sigma_px, 2);
-  const double bound2 = std::min(cutoff2, kMaxInlierError * kMaxInlierError);
+  const double bound = std::min(kTukey * estimate.sigma_px, kMaxInlierError);
   for (Measurement& m : measurements) {
     const Residual r = residual_of(camera, m, estimate.camera_from_world);
-    m.inlier = r.valid && r.error.squaredNorm() < bound2;
+    m.inlier = r.valid && r.error.norm() < bound;
     estimate.inliers += m.inlier ? 1 : 0;
   }
   return estimate;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/absolute_pose.h"
+#include "geometry/robust.h"
 #include "geometry/rotation.h"
 #include "geometry/triangulation.h"
 
@@ -42,9 +43,7 @@ double misfit(const geometry::Pose& second_from_first, const ManyViews& views) {
     }
   }
   if (errors.empty()) return std::numeric_limits<double>::infinity();
-  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
-  std::nth_element(errors.begin(), middle, errors.end());
-  return *middle;
+  return geometry::median(std::move(errors));
 }
 
 }  // namespace

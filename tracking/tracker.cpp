@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/robust.h"
 #include "tracking/initialiser.h"
 #include "tracking/map_tracking.h"
 #include "tracking/mapper.h"
@@ -242,9 +243,7 @@ class Tracker::Impl {
     for (const Measurement& m : found.measurements) {
       if (m.inlier) depths.push_back((camera_from_world_ * m.position).z());
     }
-    const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-    std::nth_element(depths.begin(), middle, depths.end());
-    return *middle;
+    return geometry::median(std::move(depths));
   }
 
   void request_keyframe_if_new(const std::shared_ptr<const Pyramid>& frame,
