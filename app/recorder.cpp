@@ -18,6 +18,9 @@ Recorder::Recorder(const geometry::Camera& camera, const config::Capture& option
 Recorder::~Recorder() = default;
 
 void Recorder::begin(const Sphere& sphere, const Moment& moment, std::filesystem::path folder) {
+  if (store_) {
+    follow_map(moment.map, 0.0);
+  }
   store_.reset();  // waits for the writer: the capture before is complete
   open_error_.reset();
   folder_ = std::move(folder);

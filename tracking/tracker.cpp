@@ -19,6 +19,7 @@ constexpr int kMinGoodInliers = 40;            // fewer are not good enough to r
 constexpr double kVerifiedShare = 0.35;        // of points found again after relocalisation
 constexpr double kMinContrast = 6.0;           // grey levels; a dark or covered lens shows less
 constexpr int kMinKeyframeGap = 4;             // frames
+constexpr std::size_t kMaxEvidence = 100000;   // about a hundred frames' worth
 constexpr double kRefreshShare = 0.5;          // of the nearest keyframe's points still measured
 constexpr double kMinRefreshBaseline = 0.012;  // of the depth: without a baseline, no new points
 constexpr double kPriorAgreement = 1.5 * std::numbers::pi / 180.0;
@@ -232,6 +233,11 @@ class Tracker::Impl {
       visible_.push_back(m.position);
     }
     std::sort(inliers.begin(), inliers.end());
+    // A camera that stands still asks for no keyframe, for hours perhaps: the older half is
+    // dropped.
+    if (evidence_.size() > kMaxEvidence) {
+      evidence_.erase(evidence_.begin(), evidence_.begin() + kMaxEvidence / 2);
+    }
     for (const std::uint32_t point : found.attempted) {
       evidence_.push_back(
           {map_->points[point].id, std::binary_search(inliers.begin(), inliers.end(), point)});

@@ -1,7 +1,9 @@
 #include "app/commands/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <string>
 
@@ -11,6 +13,13 @@
 // The only file that knows CLI11, which takes long to compile.
 namespace lumibox::app {
 namespace {
+
+/// CLI::Range takes what is not a number for a number in range.
+std::string must_be_finite(const std::string& text) {
+  return std::isfinite(std::strtod(text.c_str(), nullptr))
+             ? ""
+             : "found " + text + "; expected a number";
+}
 
 /// A subcommand with the options that all have, and an example in its help.
 template <typename Options>
@@ -49,6 +58,7 @@ void add_demo(CLI::App& app) {
                    "ticks per simulated second; the camera has 30, and fewer are over sooner")
       ->type_name("HZ")
       ->check(CLI::Range(5.0, 60.0))
+      ->check(must_be_finite)
       ->capture_default_str();
 }
 
@@ -119,6 +129,7 @@ void add_render(CLI::App& app) {
       ->type_name("N");
   command->add_option("--exponent", options->exponent, "of the weights (default: render.exponent)")
       ->check(CLI::Range(0.0, 100.0))
+      ->check(must_be_finite)
       ->type_name("X");
   command->add_option("--geometry", options->geometry, "what the pictures are projected onto")
       ->check(CLI::IsMember({"plane", "focal", "mesh"}))

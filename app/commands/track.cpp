@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <exception>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -34,16 +35,15 @@ struct Result {
 };
 
 /// Until the recording is over: look, note, let the capture see it too.
-Result play(Sight& sight, hal::Camera& camera, hal::Clock& clock, AutoCapture* capture,
-            std::int64_t frames) {
+void play(Sight& sight, hal::Camera& camera, hal::Clock& clock, AutoCapture* capture,
+          std::int64_t frames, Result& result) {
   constexpr std::int64_t kPollNs = 1'000'000;
   Progress progress("tracking", frames);
-  Result result;
   while (true) {
     const Moment& moment = sight.look();
     if (!moment.fresh) {
       if (camera.state() == hal::CameraState::Ended) {
-        return result;
+        return;
       }
       clock.wait_until(clock.now_ns() + kPollNs);
       continue;
@@ -134,10 +134,13 @@ void finish_capture(const std::filesystem::path& folder, Recorder& recorder,
 
 void track(const TrackOptions& options) {
   const config::Config config = load_config(options.sources);
-  const std::optional<SubjectPixel> subject = options.subject;
   const hal::Sequence sequence = hal::open_sequence(options.sequence, options.calibration);
   const Threading threading = options.realtime ? kThreaded : kLockstep;
   const geometry::Camera model(sequence.profile);
+  if (options.subject && !model.contains(options.subject->pixel)) {
+    throw config::InputError("--subject: the pixel lies outside the pictures of " +
+                             std::to_string(model.width()) + "x" + std::to_string(model.height()));
+  }
   hal::SystemClock clock;
   hal::ReplayCamera camera(sequence, clock,
                            options.realtime ? hal::Pacing::Recorded : hal::Pacing::Lockstep);
@@ -147,29 +150,38 @@ void track(const TrackOptions& options) {
   std::optional<AutoCapture> capture;
   if (options.capture) {
     refuse_used_folder(*options.capture);
-    capture.emplace(recorder, model, config.capture, *options.capture, subject);
+    capture.emplace(recorder, model, config.capture, *options.capture, options.subject);
   }
 
   camera.start();
-  const Result result = play(sight, camera, clock, capture ? &*capture : nullptr,
-                             static_cast<std::int64_t>(sequence.entries.size()));
+  Result result;
+  std::exception_ptr broken_off;  // a picture that cannot be read: what came before it is kept
+  try {
+    play(sight, camera, clock, capture ? &*capture : nullptr,
+         static_cast<std::int64_t>(sequence.entries.size()), result);
+  } catch (const config::InputError&) {
+    broken_off = std::current_exception();
+  }
   tracker.finish();
 
+  nlohmann::json json = result.report.to_json(tracker.statistics());
+  if (capture) {
+    finish_capture(*options.capture, recorder, tracker, json);
+  }
   const auto live = live_trajectory(result);
   const auto corrected = final_trajectory(result, tracker);
   write_trajectory(options.out, corrected);
   if (options.live) {
     write_trajectory(*options.live, live);
   }
-  nlohmann::json json = result.report.to_json(tracker.statistics());
   say(result.report, json);
   judge("live", live, sequence.ground_truth, json);
   judge("final", corrected, sequence.ground_truth, json);
-  if (capture) {
-    finish_capture(*options.capture, recorder, tracker, json);
-  }
   if (options.json) {
     write_json(*options.json, json);
+  }
+  if (broken_off) {
+    std::rethrow_exception(broken_off);
   }
   if (result.frames.empty()) {
     throw config::InputError(options.sequence, std::string("no frame could be tracked: ") +

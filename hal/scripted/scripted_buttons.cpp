@@ -8,6 +8,8 @@ namespace lumibox::hal {
 ScriptedButtons::ScriptedButtons(std::vector<ButtonEvent> events, const Clock& clock)
     : events_(std::move(events)), clock_(clock) {
   std::ranges::stable_sort(events_, {}, &ButtonEvent::timestamp_ns);
+  // The system's clock has been running since long before.
+  for (ButtonEvent& event : events_) event.timestamp_ns += clock_.now_ns();
 }
 
 std::vector<ButtonEvent> ScriptedButtons::poll() {

@@ -8,7 +8,8 @@
 
 namespace lumibox::hal {
 
-/// Buttons pressed by a script: each event becomes visible when the clock reaches its time.
+/// Buttons pressed by a script, whose times count from when these buttons are made: each event
+/// becomes visible, with the time on the clock, when the clock reaches it.
 class ScriptedButtons : public Buttons {
  public:
   ScriptedButtons(std::vector<ButtonEvent> events, const Clock& clock);

@@ -59,7 +59,8 @@ TEST(CommandLine, EveryCommandExplainsItselfWithAnExample) {
 TEST(CommandLine, WrongUseExitsWithTwo) {
   for (const char* arguments :
        {"", "fly", "track", "track a b", "track walk --out t.tum --speed 3",
-        "track walk --out t.tum --seed many", "track walk --out t.tum --subject 1,2@3",
+        "track walk --out t.tum --seed many", "demo --rate nan",
+        "track walk --out t.tum --subject 1,2@3",
         "track walk --out t.tum --capture c --subject middle", "render c --views v --out o --k 0",
         "render c --views v --out o --mode huge", "export c --format gltf --out o"}) {
     const Outcome outcome = lumibox(arguments);
@@ -118,6 +119,17 @@ TEST(CommandLine, RecordingThatCannotBeTrackedLeavesItsStatisticsAndSaysWhy) {
       AllOf(HasSubstr("\"frames\": 5"), HasSubstr("\"tracked\": 0"), HasSubstr("\"losses\": []")));
   EXPECT_TRUE(std::filesystem::exists(out + ".tum"));
   EXPECT_TRUE(std::filesystem::exists(out + ".live.tum"));
+}
+
+TEST(CommandLine, WhatCameBeforeABrokenPictureIsKept) {
+  const Recording recording;
+  recording.dir().write("rgb/000003.png", "not a picture");
+  const std::string out = (recording.folder() / "walk").string();
+  EXPECT_COMPLAINT(lumibox("track " + recording.folder().string() + " --out " + out +
+                           ".tum --json " + out + ".json"),
+                   HasSubstr("000003.png"));
+  EXPECT_THAT(read_text(out + ".json"), HasSubstr("\"frames\": 3"));
+  EXPECT_TRUE(std::filesystem::exists(out + ".tum"));
 }
 
 struct Spoiled {

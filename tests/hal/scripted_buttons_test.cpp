@@ -31,5 +31,17 @@ TEST(ScriptedButtons, AppearWhenTheClockReachesThemInOrderAndOnce) {
   EXPECT_TRUE(buttons.poll().empty());
 }
 
+// A real clock began when the machine did.
+TEST(ScriptedButtons, TimesCountFromWhenTheyAreMade) {
+  VirtualClock clock;
+  clock.wait_until(5000);
+  ScriptedButtons buttons({{Button::Main, ButtonAction::Pressed, 100}}, clock);
+  EXPECT_TRUE(buttons.poll().empty());
+  clock.wait_until(5100);
+  const std::vector<ButtonEvent> press = buttons.poll();
+  ASSERT_EQ(press.size(), 1U);
+  EXPECT_EQ(press[0].timestamp_ns, 5100);
+}
+
 }  // namespace
 }  // namespace lumibox::hal
