@@ -1,5 +1,5 @@
-// What a frame of each shipped scene costs the simulated camera: sim_frame_bench [FRAMES]
-// [SCENE...]
+// What a frame of each shipped scene costs the simulated camera:
+//   sim_frame_bench [FRAMES] [SCENE...]
 
 #include <algorithm>
 #include <charconv>

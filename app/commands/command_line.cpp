@@ -38,6 +38,14 @@ CLI::App* add_command(CLI::App& app, const char* name, const char* description, 
   return command;
 }
 
+void add_capture(CLI::App* command, std::filesystem::path& capture) {
+  command->add_option("CAPTURE", capture, "capture folder")->required();
+}
+
+void add_reference(CLI::App* command, bool& reference) {
+  command->add_flag("--reference", reference, "the exact renderer on the CPU");
+}
+
 void add_run(CLI::App& app) {
   add_command(
       app, "run", "The box itself: camera, buttons and display as the configuration names them.",
@@ -114,7 +122,7 @@ void add_render(CLI::App& app) {
       app, "render", "Render a capture from the poses of a trajectory, one PNG per line.",
       "lumibox render walk_capture/ --views views.tum --out pictures/ --mode wide", options,
       render_views);
-  command->add_option("CAPTURE", options->capture, "capture folder")->required();
+  add_capture(command, options->capture);
   command->add_option("--views", options->views, "poses, world from camera, in the capture's world")
       ->type_name("VIEWS.tum")
       ->required();
@@ -138,7 +146,7 @@ void add_render(CLI::App& app) {
       ->add_option("--calib", options->calibration,
                    "intrinsics of the views (default: the capture's, undistorted)")
       ->type_name("CALIB.txt");
-  command->add_flag("--reference", options->reference, "the exact renderer on the CPU");
+  add_reference(command, options->reference);
 }
 
 void add_evaluate(CLI::App& app) {
@@ -146,12 +154,12 @@ void add_evaluate(CLI::App& app) {
   CLI::App* command =
       add_command(app, "evaluate", "How well each perspective can be rendered from all the others.",
                   "lumibox evaluate walk_capture/ --json quality.json", options, evaluate);
-  command->add_option("CAPTURE", options->capture, "capture folder")->required();
+  add_capture(command, options->capture);
   command->add_option("--json", options->json, "one row per method, and the rows per view")
       ->type_name("FILE");
   command->add_option("--pictures", options->pictures, "folder for what was rendered")
       ->type_name("DIR");
-  command->add_flag("--reference", options->reference, "the exact renderer on the CPU");
+  add_reference(command, options->reference);
 }
 
 void add_import(CLI::App& app) {
@@ -171,7 +179,7 @@ void add_export(CLI::App& app) {
   CLI::App* command = add_command(
       app, "export", "Write a capture in the layout of another program.",
       "lumibox export walk_capture/ --format colmap --out walk_colmap/", options, export_data_set);
-  command->add_option("CAPTURE", options->capture, "capture folder")->required();
+  add_capture(command, options->capture);
   command->add_option("--format", options->format, "layout")
       ->check(CLI::IsMember({"nerfstudio", "colmap", "llff", "web"}))
       ->required();

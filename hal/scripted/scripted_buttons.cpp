@@ -9,7 +9,8 @@ ScriptedButtons::ScriptedButtons(std::vector<ButtonEvent> events, const Clock& c
     : events_(std::move(events)), clock_(clock) {
   std::ranges::stable_sort(events_, {}, &ButtonEvent::timestamp_ns);
   // The system's clock has been running since long before.
-  for (ButtonEvent& event : events_) event.timestamp_ns += clock_.now_ns();
+  const std::int64_t start_ns = clock_.now_ns();
+  for (ButtonEvent& event : events_) event.timestamp_ns += start_ns;
 }
 
 std::vector<ButtonEvent> ScriptedButtons::poll() {

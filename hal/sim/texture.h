@@ -15,8 +15,8 @@ class Texture {
   /// `base` is in linear light; width and height must be powers of two.
   explicit Texture(const LinearImage& base);
 
-  /// Linear light at (u, v), in tiles, to 1/256 of a texel; `footprint` is the width of the asking
-  /// pixel in tiles.
+  /// Linear light at (u, v), in tiles; `footprint` is the width of the asking pixel in tiles. The
+  /// place is rounded to 1/256 of a texel, and far from the origin to what a float can tell apart.
   Float4 sample(float u, float v, float footprint) const;
 
  private:
@@ -24,7 +24,7 @@ class Texture {
   /// is steepest. The fourth value only makes a texel as wide as a vector register wants it.
   using Texel = std::uint16_t __attribute__((vector_size(8)));
 
-  /// Texels in blocks of four by four, two cache lines each: neighbours in the picture are
+  /// Texels in blocks of four by four, 128 bytes each: neighbours in the picture are
   /// neighbours in memory, whichever way the surface is turned.
   struct Level {
     std::uint32_t width = 1;

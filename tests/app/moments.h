@@ -6,6 +6,7 @@
 
 #include "app/moment.h"
 #include "hal/image.h"
+#include "support/pinhole.h"
 
 namespace lumibox::testing {
 
@@ -71,13 +72,7 @@ class World {
 
 /// The camera of World's pictures.
 inline geometry::Camera small_camera() {
-  config::CameraProfile profile;
-  profile.width = 64;
-  profile.height = 48;
-  profile.fx = profile.fy = 60.0;
-  profile.cx = 31.5;
-  profile.cy = 23.5;
-  return geometry::Camera(profile);
+  return pinhole(64, 48, 60.0);
 }
 
 /// A camera on the unit circle around (0, 0, 1), that looks at it; angle 0 is the origin.

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "support/pinhole.h"
+
 namespace lumibox::tracking::testing {
 
 double noise(double x, double y) {
@@ -64,13 +66,7 @@ hal::Image render_wedge(const geometry::Camera& camera, const geometry::Pose& wo
 }
 
 geometry::Camera small_camera() {
-  config::CameraProfile profile;
-  profile.width = 320;
-  profile.height = 240;
-  profile.fx = profile.fy = 270.0;
-  profile.cx = 159.5;
-  profile.cy = 119.5;
-  return geometry::Camera(profile);
+  return lumibox::testing::pinhole(320, 240, 270.0);
 }
 
 }  // namespace lumibox::tracking::testing
