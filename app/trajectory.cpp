@@ -1,8 +1,10 @@
 #include "app/trajectory.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 namespace lumibox::app {
 namespace {
@@ -23,37 +25,93 @@ const hal::StampedPose* nearest_in_time(const std::vector<hal::StampedPose>& tru
   return nearest;
 }
 
+struct PosePair {
+  geometry::Pose estimate;
+  geometry::Pose truth;
+};
+
+std::vector<PosePair> pair_by_time(const std::vector<hal::StampedPose>& estimate,
+                                   const std::vector<hal::StampedPose>& truth, double tolerance_s) {
+  std::vector<PosePair> pairs;
+  for (const hal::StampedPose& pose : estimate) {
+    if (const auto* match = nearest_in_time(truth, pose.timestamp_s, tolerance_s)) {
+      pairs.push_back({pose.world_from_camera, match->world_from_camera});
+    }
+  }
+  return pairs;
+}
+
+double degrees(double radians) {
+  return radians * 180.0 / std::numbers::pi;
+}
+
+double rms(double sum_of_squares, std::size_t count) {
+  return std::sqrt(sum_of_squares / static_cast<double>(count));
+}
+
+/// The world's turn is the one that minimises the sum of squared chords between the rotations
+/// (Markley et al., "Averaging quaternions", 2007).
+double rotation_rmse_deg(const std::vector<PosePair>& pairs) {
+  Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
+  for (const PosePair& pair : pairs) {
+    const Eigen::Quaterniond turn = pair.truth.rotation * pair.estimate.rotation.conjugate();
+    sum += turn.coeffs() * turn.coeffs().transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(sum);
+  const Eigen::Quaterniond truth_from_estimate(Eigen::Vector4d(eigen.eigenvectors().col(3)));
+  double squares = 0.0;
+  for (const PosePair& pair : pairs) {
+    const double angle =
+        pair.truth.rotation.angularDistance(truth_from_estimate * pair.estimate.rotation);
+    squares += angle * angle;
+  }
+  return degrees(rms(squares, pairs.size()));
+}
+
+double subject_rmse_deg(const std::vector<PosePair>& pairs,
+                        const geometry::Similarity& truth_from_estimate,
+                        const Eigen::Vector3d& subject) {
+  double squares = 0.0;
+  for (const PosePair& pair : pairs) {
+    const Eigen::Vector3d a = pair.truth.translation - subject;
+    const Eigen::Vector3d b = truth_from_estimate * pair.estimate.translation - subject;
+    const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
+    squares += angle * angle;
+  }
+  return degrees(rms(squares, pairs.size()));
+}
+
 }  // namespace
 
 std::optional<TrajectoryError> compare_trajectories(const std::vector<hal::StampedPose>& estimate,
                                                     const std::vector<hal::StampedPose>& truth,
+                                                    const std::optional<Eigen::Vector3d>& subject,
                                                     double tolerance_s) {
-  Eigen::Matrix3Xd estimated(3, static_cast<Eigen::Index>(estimate.size()));
-  Eigen::Matrix3Xd actual(3, estimated.cols());
-  Eigen::Index pairs = 0;
-  for (const hal::StampedPose& pose : estimate) {
-    if (const auto* match = nearest_in_time(truth, pose.timestamp_s, tolerance_s)) {
-      estimated.col(pairs) = pose.world_from_camera.translation;
-      actual.col(pairs) = match->world_from_camera.translation;
-      ++pairs;
-    }
-  }
-  if (pairs < 3) {
+  const std::vector<PosePair> pairs = pair_by_time(estimate, truth, tolerance_s);
+  if (pairs.size() < 3) {
     return std::nullopt;
   }
-  estimated.conservativeResize(3, pairs);
-  actual.conservativeResize(3, pairs);
+  Eigen::Matrix3Xd estimated(3, static_cast<Eigen::Index>(pairs.size()));
+  Eigen::Matrix3Xd actual(3, estimated.cols());
+  for (Eigen::Index i = 0; i < estimated.cols(); ++i) {
+    estimated.col(i) = pairs[static_cast<std::size_t>(i)].estimate.translation;
+    actual.col(i) = pairs[static_cast<std::size_t>(i)].truth.translation;
+  }
 
   TrajectoryError error;
-  error.poses = static_cast<int>(pairs);
+  error.poses = static_cast<int>(pairs.size());
   error.truth_from_estimate = geometry::align_umeyama(estimated, actual);
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < pairs; ++i) {
-    sum += (error.truth_from_estimate * estimated.col(i) - actual.col(i)).squaredNorm();
+  double squares = 0.0;
+  for (Eigen::Index i = 0; i < estimated.cols(); ++i) {
+    squares += (error.truth_from_estimate * estimated.col(i) - actual.col(i)).squaredNorm();
   }
-  error.rmse = std::sqrt(sum / static_cast<double>(pairs));
+  error.rmse = rms(squares, pairs.size());
   const double extent = (actual.rowwise().maxCoeff() - actual.rowwise().minCoeff()).norm();
   error.rmse_percent = extent > 0.0 ? 100.0 * error.rmse / extent : 0.0;
+  error.rotation_rmse_deg = rotation_rmse_deg(pairs);
+  if (subject) {
+    error.subject_rmse_deg = subject_rmse_deg(pairs, error.truth_from_estimate, *subject);
+  }
   return error;
 }
 

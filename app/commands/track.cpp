@@ -83,16 +83,25 @@ std::vector<hal::StampedPose> final_trajectory(const Result& result,
 }
 
 /// Adds the errors against the truth to the statistics and says them.
-void judge(const char* which, const std::vector<hal::StampedPose>& trajectory,
-           const std::vector<hal::StampedPose>& truth, nlohmann::json& json) {
-  const auto error = compare_trajectories(trajectory, truth);
+void judge(const std::string& which, const std::vector<hal::StampedPose>& trajectory,
+           const hal::Sequence& sequence, nlohmann::json& json) {
+  const auto subject = sequence.subject ? std::optional(sequence.subject->center) : std::nullopt;
+  const auto error = compare_trajectories(trajectory, sequence.ground_truth, subject);
   if (!error) {
     return;
   }
-  json[std::string("ate_") + which] = error->rmse;
-  json[std::string("ate_") + which + "_percent"] = error->rmse_percent;
-  std::printf("%-5s error (RMSE after Sim(3) alignment, %d poses): %.5f, %.3f %% of the extent\n",
-              which, error->poses, error->rmse, error->rmse_percent);
+  json["ate_" + which] = error->rmse;
+  json["ate_" + which + "_percent"] = error->rmse_percent;
+  json["rotation_rmse_deg_" + which] = error->rotation_rmse_deg;
+  std::printf(
+      "%-5s error over %d poses: %.5f, %.3f %% of the extent (RMSE after Sim(3) "
+      "alignment); rotation %.3f deg",
+      which.c_str(), error->poses, error->rmse, error->rmse_percent, error->rotation_rmse_deg);
+  if (error->subject_rmse_deg) {
+    json["subject_rmse_deg_" + which] = *error->subject_rmse_deg;
+    std::printf(", %.3f deg at the subject", *error->subject_rmse_deg);
+  }
+  std::printf("\n");
 }
 
 void say(const TrackReport& report, const nlohmann::json& json) {
@@ -175,8 +184,8 @@ void track(const TrackOptions& options) {
     write_trajectory(*options.live, live);
   }
   say(result.report, json);
-  judge("live", live, sequence.ground_truth, json);
-  judge("final", corrected, sequence.ground_truth, json);
+  judge("live", live, sequence, json);
+  judge("final", corrected, sequence, json);
   if (options.json) {
     write_json(*options.json, json);
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace lumibox::app {
 namespace {
@@ -48,6 +49,41 @@ TEST(Trajectory, ErrorIsInTheTruthsUnitsAndAShareOfItsExtent) {
   ASSERT_TRUE(error);
   EXPECT_NEAR(error->rmse, 0.5, 0.01);
   EXPECT_NEAR(error->rmse_percent, 100.0 * error->rmse / 5.0, 1e-9);
+}
+
+TEST(Trajectory, RotationErrorIsWhatIsLeftAfterTheWorldsTurn) {
+  const auto truth = helix(40);
+  auto estimate = truth;
+  const Eigen::Quaterniond world_turn = geometry::exp_so3({0.4, 1.0, -0.3});
+  for (std::size_t i = 0; i < estimate.size(); ++i) {
+    const double error_rad = i % 2 == 0 ? 0.01 : -0.01;  // the world's turn cannot take both away
+    auto& rotation = estimate[i].world_from_camera.rotation;
+    rotation = world_turn * geometry::exp_so3({0.0, error_rad, 0.0}) * rotation;
+  }
+  const auto error = compare_trajectories(estimate, truth);
+  ASSERT_TRUE(error);
+  EXPECT_NEAR(error->rotation_rmse_deg, 0.01 * 180.0 / std::numbers::pi, 1e-6);
+}
+
+TEST(Trajectory, SubjectErrorIsTheAngleSeenFromTheSubject) {
+  // A ring of cameras around the subject, every other one displaced along the ring by 0.02 rad and
+  // back: no similarity takes that away.
+  std::vector<hal::StampedPose> truth;
+  std::vector<hal::StampedPose> estimate;
+  const auto on_ring = [](double angle) {
+    return geometry::Pose(Eigen::Quaterniond::Identity(),
+                          Eigen::Vector3d(2.0 * std::cos(angle), 2.0 * std::sin(angle), 0.0));
+  };
+  for (int i = 0; i < 36; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / 36.0;
+    truth.push_back({0.1 * i, on_ring(angle)});
+    estimate.push_back({0.1 * i, on_ring(angle + (i % 2 == 0 ? 0.02 : -0.02))});
+  }
+  const auto error = compare_trajectories(estimate, truth, Eigen::Vector3d::Zero().eval());
+  ASSERT_TRUE(error && error->subject_rmse_deg);
+  // The scale grows by 1 / cos 0.02, which moves no direction.
+  EXPECT_NEAR(*error->subject_rmse_deg, 0.02 * 180.0 / std::numbers::pi, 1e-6);
+  EXPECT_FALSE(compare_trajectories(estimate, truth)->subject_rmse_deg);
 }
 
 TEST(Trajectory, PosesWithoutATruthOfTheirTimeAreLeftOut) {
