@@ -58,7 +58,10 @@ class LeftTwistManifold : public ceres::Manifold {
 class ReprojectionCost : public ceres::SizedCostFunction<2, 7, 3> {
  public:
   ReprojectionCost(const geometry::Camera& camera, const BundleProblem::Observation& observation)
-      : camera_(camera), pixel_(observation.pixel), inverse_sigma_(1.0 / observation.sigma_px) {}
+      : camera_(camera),
+        pixel_(observation.pixel),
+        row_from_frame_(observation.row_from_frame),
+        inverse_sigma_(1.0 / observation.sigma_px) {}
 
   bool Evaluate(const double* const* parameters, double* residuals,
                 double** jacobians) const override {
@@ -66,12 +69,12 @@ class ReprojectionCost : public ceres::SizedCostFunction<2, 7, 3> {
     const Eigen::Map<const Eigen::Vector3d> point(parameters[1]);
     const Eigen::Vector3d p = camera_from_world * point;
     Eigen::Matrix<double, 2, 3> by_point;
-    const auto pixel = camera_.project(p, &by_point);
+    const auto pixel = camera_.project(row_from_frame_ * p, &by_point);
     if (!pixel) return false;  // the solver rejects the step that led here
     Eigen::Map<Eigen::Vector2d> error(residuals);
     error = (*pixel - pixel_) * inverse_sigma_;
     if (jacobians == nullptr) return true;
-    by_point *= inverse_sigma_;
+    by_point *= inverse_sigma_ * row_from_frame_.matrix3();
     if (jacobians[0] != nullptr) {
       Eigen::Map<Eigen::Matrix<double, 2, 7, Eigen::RowMajor>> j(jacobians[0]);
       j.leftCols<3>() = by_point;
@@ -88,6 +91,7 @@ class ReprojectionCost : public ceres::SizedCostFunction<2, 7, 3> {
  private:
   const geometry::Camera& camera_;
   Eigen::Vector2d pixel_;
+  geometry::Pose row_from_frame_;
   double inverse_sigma_;
 };
 
@@ -95,7 +99,7 @@ void set_errors(const geometry::Camera& camera, BundleProblem& problem) {
   for (auto& o : problem.observations) {
     const auto& view = problem.views[static_cast<std::size_t>(o.view)];
     const auto& point = problem.points[static_cast<std::size_t>(o.point)];
-    const auto pixel = camera.project(view.camera_from_world * point);
+    const auto pixel = camera.project(o.row_from_frame * (view.camera_from_world * point));
     o.error_in_sigma =
         pixel ? (*pixel - o.pixel).norm() / o.sigma_px : std::numeric_limits<double>::infinity();
   }

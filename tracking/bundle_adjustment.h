@@ -19,7 +19,8 @@ struct BundleProblem {
     int point = 0;
     Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< on level 0
     double sigma_px = 1.0;                            ///< expected error
-    double error_in_sigma = 0.0;                      ///< set by adjust: length of the residual
+    geometry::Pose row_from_frame;  ///< of a rolling shutter, see geometry::row_from_frame
+    double error_in_sigma = 0.0;    ///< set by adjust: length of the residual
   };
   std::vector<View> views;
   std::vector<Eigen::Vector3d> points;  ///< in world

@@ -17,12 +17,12 @@ struct Candidate {
 };
 
 std::vector<Candidate> visible_points(const geometry::Camera& camera, const MapView& map,
-                                      const geometry::Pose& camera_from_world, int columns,
+                                      const geometry::FramePose& pose, int columns,
                                       double cell_size) {
   std::vector<Candidate> visible;
   visible.reserve(map.points.size());
   for (std::uint32_t i = 0; i < map.points.size(); ++i) {
-    const auto pixel = camera.project(camera_from_world * map.points[i].position);
+    const auto pixel = geometry::project(camera, pose, map.points[i].position);
     if (!pixel || !camera.contains(*pixel, kBorder)) continue;
     const int cell = static_cast<int>(pixel->y() / cell_size) * columns +
                      static_cast<int>(pixel->x() / cell_size);
@@ -75,11 +75,10 @@ std::optional<Measurement> find_point(const geometry::Camera& camera, const MapV
 }  // namespace
 
 SearchResult search_map(const geometry::Camera& camera, const MapView& map, const Pyramid& frame,
-                        const geometry::Pose& camera_from_world, const SearchPass& pass) {
+                        const geometry::FramePose& pose, const SearchPass& pass) {
   constexpr double kCell = 32.0;
   const int columns = static_cast<int>(camera.width() / kCell) + 1;
-  std::vector<Candidate> candidates =
-      visible_points(camera, map, camera_from_world, columns, kCell);
+  std::vector<Candidate> candidates = visible_points(camera, map, pose, columns, kCell);
   spread_over_cells(candidates);
 
   SearchResult result;
@@ -89,7 +88,7 @@ SearchResult search_map(const geometry::Camera& camera, const MapView& map, cons
     const std::span<const Sighting> sightings(map.sightings.data() + point.first_sighting,
                                               point.sightings);
     const auto warp =
-        plan_warp(camera, map, point.position, sightings, camera_from_world, pass.min_level);
+        plan_warp(camera, map, point.position, sightings, pose.camera_from_world, pass.min_level);
     if (!warp) continue;
     result.attempted.push_back(candidate.point);
     if (auto m = find_point(camera, map, frame, candidate, *warp, pass)) {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "geometry/camera.h"
-#include "geometry/pose.h"
+#include "geometry/rolling_shutter.h"
 #include "tracking/map_view.h"
 #include "tracking/point_matcher.h"
 #include "tracking/pose_estimator.h"
@@ -25,8 +25,8 @@ struct SearchResult {
   std::vector<Measurement> measurements;  ///< those found
 };
 
-/// Looks for the map's points in a frame around where `camera_from_world` predicts them.
+/// Looks for the map's points in a frame around where `pose` predicts them.
 SearchResult search_map(const geometry::Camera& camera, const MapView& map, const Pyramid& frame,
-                        const geometry::Pose& camera_from_world, const SearchPass& pass);
+                        const geometry::FramePose& pose, const SearchPass& pass);
 
 }  // namespace lumibox::tracking

@@ -11,6 +11,7 @@
 #include "geometry/two_view.h"
 #include "tracking/corners.h"
 #include "tracking/opencv_view.h"
+#include "tracking/rolling_start.h"
 #include "tracking/third_view.h"
 
 namespace lumibox::tracking {
@@ -35,7 +36,8 @@ Initialiser::Initialiser(const geometry::Camera& camera, const config::Tracking&
     : camera_(camera), options_(options), seed_(seed) {}
 Initialiser::~Initialiser() = default;
 
-void Initialiser::restart(const std::shared_ptr<const Pyramid>& frame) {
+void Initialiser::restart(const std::shared_ptr<const Pyramid>& frame, std::int64_t timestamp_ns) {
+  times_ns_ = {timestamp_ns};
   first_ = frame;
   last_ = frame;
   tracks_.clear();
@@ -82,17 +84,19 @@ double Initialiser::median_flow_px() const {
   return geometry::median(std::move(flow));
 }
 
-Initialiser::Progress Initialiser::add(const std::shared_ptr<const Pyramid>& frame) {
+Initialiser::Progress Initialiser::add(const std::shared_ptr<const Pyramid>& frame,
+                                       std::int64_t timestamp_ns) {
   if (!first_) {
-    restart(frame);
+    restart(frame, timestamp_ns);
     return {std::nullopt, tracks_.size() < kMinCorners ? TrackingReason::TooLittleTexture
                                                        : TrackingReason::MoveSideways};
   }
+  times_ns_.push_back(timestamp_ns);
   if (!tracks_.empty()) follow(frame);
   const double share = static_cast<double>(tracks_.size()) /
                        static_cast<double>(std::max<std::size_t>(tracks_at_start_, 1));
   if (tracks_.size() < kMinCorners || share < kMinTrackShare) {
-    restart(frame);
+    restart(frame, timestamp_ns);
     return {std::nullopt, tracks_.size() < kMinCorners ? TrackingReason::TooLittleTexture
                                                        : TrackingReason::MoveSideways};
   }
@@ -171,7 +175,8 @@ Initialiser::Progress Initialiser::make_map(const std::shared_ptr<const Pyramid>
                                             const std::vector<bool>& inliers,
                                             std::span<const geometry::BearingPair> pairs,
                                             std::span<const Track* const> used) const {
-  InitialMap map{first_, frame, second_from_first, {}};
+  InitialMap map{first_, frame, second_from_first, {}, {}, {}};
+  std::vector<PointPath> paths;
   std::vector<double> depths;
   for (std::size_t i = 0; i < used.size(); ++i) {
     if (!inliers[i]) continue;
@@ -179,6 +184,8 @@ Initialiser::Progress Initialiser::make_map(const std::shared_ptr<const Pyramid>
         geometry::triangulate(geometry::Pose(), second_from_first, pairs[i].first, pairs[i].second);
     if (!point) continue;
     map.points.push_back({*point, used[i]->first, used[i]->current, used[i]->level});
+    paths.push_back(used[i]->path);
+    paths.back().push_back(used[i]->current);
     depths.push_back(point->z());
   }
   if (map.points.size() < static_cast<std::size_t>(options_.init_min_inliers)) {
@@ -187,6 +194,7 @@ Initialiser::Progress Initialiser::make_map(const std::shared_ptr<const Pyramid>
   const double scale = 1.0 / geometry::median(std::move(depths));
   map.second_from_first.translation *= scale;
   for (InitialMap::Point& p : map.points) p.position *= scale;
+  if (camera_.profile().readout_s > 0.0) correct_for_readout(camera_, times_ns_, paths, map);
   return {std::move(map), TrackingReason::None};
 }
 

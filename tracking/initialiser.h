@@ -27,6 +27,9 @@ struct InitialMap {
   std::shared_ptr<const Pyramid> first;
   std::shared_ptr<const Pyramid> second;
   geometry::Pose second_from_first;
+  /// Of a rolling shutter, see geometry::FramePose; from the frames beside the two.
+  geometry::Vector6d first_readout_twist = geometry::Vector6d::Zero();
+  geometry::Vector6d second_readout_twist = geometry::Vector6d::Zero();
   std::vector<Point> points;
 };
 
@@ -41,12 +44,12 @@ class Initialiser {
     std::optional<InitialMap> map;
     TrackingReason reason = TrackingReason::MoveSideways;  ///< why there is no map yet
   };
-  Progress add(const std::shared_ptr<const Pyramid>& frame);
+  Progress add(const std::shared_ptr<const Pyramid>& frame, std::int64_t timestamp_ns);
 
  private:
   struct Track;  ///< a corner followed since the first frame
 
-  void restart(const std::shared_ptr<const Pyramid>& frame);
+  void restart(const std::shared_ptr<const Pyramid>& frame, std::int64_t timestamp_ns);
   void follow(const std::shared_ptr<const Pyramid>& frame);
   double median_flow_px() const;
   Progress solve(const std::shared_ptr<const Pyramid>& frame);
@@ -65,6 +68,7 @@ class Initialiser {
   std::shared_ptr<const Pyramid> last_;
   std::vector<Track> tracks_;
   std::size_t tracks_at_start_ = 0;
+  std::vector<std::int64_t> times_ns_;  // of the frames since the first
 };
 
 }  // namespace lumibox::tracking

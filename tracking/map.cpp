@@ -15,10 +15,11 @@ void append_point(MapView& view, PointId id, const Map::Point& point) {
 
 }  // namespace
 
-KeyframeId Map::add_keyframe(const geometry::Pose& world_from_camera,
+KeyframeId Map::add_keyframe(const geometry::FramePose& pose,
                              std::shared_ptr<const Pyramid> pyramid) {
   Keyframe keyframe;
-  keyframe.world_from_camera = world_from_camera;
+  keyframe.world_from_camera = pose.camera_from_world.inverse();
+  keyframe.readout_twist = pose.readout_twist;
   keyframe.pyramid = std::move(pyramid);
   keyframes_.push_back(std::move(keyframe));
   return static_cast<KeyframeId>(keyframes_.size()) - 1;
@@ -65,7 +66,10 @@ void Map::update_depths() {
 }
 
 void Map::scale(double factor) {
-  for (Keyframe& k : keyframes_) k.world_from_camera.translation *= factor;
+  for (Keyframe& k : keyframes_) {
+    k.world_from_camera.translation *= factor;
+    k.readout_twist.head<3>() *= factor;
+  }
   for (auto& [id, p] : points_) p.position *= factor;
   update_depths();
 }

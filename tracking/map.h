@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/pose.h"
+#include "geometry/rolling_shutter.h"
 #include "tracking/map_view.h"
 
 namespace lumibox::tracking {
@@ -21,14 +22,16 @@ class Map {
     int found = 0;     ///< frames in which it was found
   };
   struct Keyframe {
-    geometry::Pose world_from_camera;
+    geometry::Pose world_from_camera;                               ///< of the middle row
+    geometry::Vector6d readout_twist = geometry::Vector6d::Zero();  ///< see geometry::FramePose
     std::shared_ptr<const Pyramid> pyramid;
     std::vector<PointId> points;  ///< that it sees, ascending
     double median_depth = 1.0;
+
+    geometry::FramePose frame_pose() const { return {world_from_camera.inverse(), readout_twist}; }
   };
 
-  KeyframeId add_keyframe(const geometry::Pose& world_from_camera,
-                          std::shared_ptr<const Pyramid> pyramid);
+  KeyframeId add_keyframe(const geometry::FramePose& pose, std::shared_ptr<const Pyramid> pyramid);
   PointId add_point(const Eigen::Vector3d& position);
 
   /// Says that a keyframe sees a point; nothing happens if it is said already.

@@ -42,7 +42,8 @@ std::set<KeyframeId> choose_fixed(const Map& map, const std::set<KeyframeId>& fr
 }
 
 /// All points seen by `free`, and their sightings in `free` and in the fixed views.
-MapProblem make_problem(const Map& map, const std::set<KeyframeId>& free) {
+MapProblem make_problem(const geometry::Camera& camera, const Map& map,
+                        const std::set<KeyframeId>& free) {
   MapProblem problem;
   std::map<KeyframeId, int> view_of;
   const auto add_view = [&](KeyframeId id) {
@@ -66,7 +67,9 @@ MapProblem make_problem(const Map& map, const std::set<KeyframeId>& free) {
     for (const Sighting& s : map.point(id).sightings) {
       if (!free.contains(s.keyframe) && !fixed.contains(s.keyframe)) continue;
       problem.bundle.observations.push_back(
-          {add_view(s.keyframe), index, s.pixel, static_cast<double>(1 << s.level), 0.0});
+          {add_view(s.keyframe), index, s.pixel, static_cast<double>(1 << s.level),
+           geometry::row_from_frame(camera, map.keyframe(s.keyframe).readout_twist, s.pixel.y()),
+           0.0});
     }
   }
   return problem;
@@ -96,7 +99,7 @@ void adjust_keyframes(const geometry::Camera& camera, Map& map, std::set<Keyfram
                       int iterations) {
   free.erase(0);  // the world's origin does not move
   if (free.empty()) return;
-  MapProblem problem = make_problem(map, free);
+  MapProblem problem = make_problem(camera, map, free);
   if (adjust(camera, problem.bundle, iterations)) apply(map, problem);
   map.update_depths();
 }

@@ -12,22 +12,23 @@ constexpr double kWideRadius = 11.0;   // second try
 constexpr int kIterations = 10;
 
 /// Pose from a coarse pass; none if it found too few points that agree.
-std::optional<geometry::Pose> coarse_pose(const geometry::Camera& camera, const MapView& map,
-                                          const Pyramid& frame, const geometry::Pose& predicted,
-                                          double radius) {
+std::optional<geometry::FramePose> coarse_pose(const geometry::Camera& camera, const MapView& map,
+                                               const Pyramid& frame,
+                                               const geometry::FramePose& predicted,
+                                               double radius) {
   const int coarse_level = std::min(2, frame.levels() - 1);
   SearchResult found =
       search_map(camera, map, frame, predicted, {coarse_level, radius, kCoarsePoints});
   const PoseEstimate estimate = estimate_pose(camera, found.measurements, predicted, kIterations);
   if (estimate.inliers < kMinCoarse) return std::nullopt;
-  return estimate.camera_from_world;
+  return estimate.pose;
 }
 
 }  // namespace
 
 std::optional<Localisation> localise(const geometry::Camera& camera,
                                      const config::Tracking& options, const MapView& map,
-                                     const Pyramid& frame, const geometry::Pose& predicted) {
+                                     const Pyramid& frame, const geometry::FramePose& predicted) {
   auto coarse = coarse_pose(camera, map, frame, predicted, kCoarseRadius);
   if (!coarse) coarse = coarse_pose(camera, map, frame, predicted, kWideRadius);
   if (!coarse) return std::nullopt;
@@ -36,8 +37,8 @@ std::optional<Localisation> localise(const geometry::Camera& camera,
   SearchResult found =
       search_map(camera, map, frame, *coarse, {0, radius, options.max_measurements});
   const PoseEstimate estimate = estimate_pose(camera, found.measurements, *coarse, kIterations);
-  return Localisation{estimate.camera_from_world, std::move(found.attempted),
-                      std::move(found.measurements), estimate.inliers};
+  return Localisation{estimate.pose, std::move(found.attempted), std::move(found.measurements),
+                      estimate.inliers};
 }
 
 }  // namespace lumibox::tracking

@@ -12,7 +12,7 @@ namespace lumibox::tracking {
 
 /// A frame located in the map.
 struct Localisation {
-  geometry::Pose camera_from_world;
+  geometry::FramePose pose;
   std::vector<std::uint32_t> attempted;   ///< points that should be visible
   std::vector<Measurement> measurements;  ///< points found; outliers are flagged
   int inliers = 0;
@@ -28,6 +28,6 @@ struct Localisation {
 /// coarse pass finds too little to go on with.
 std::optional<Localisation> localise(const geometry::Camera& camera,
                                      const config::Tracking& options, const MapView& map,
-                                     const Pyramid& frame, const geometry::Pose& predicted);
+                                     const Pyramid& frame, const geometry::FramePose& predicted);
 
 }  // namespace lumibox::tracking

@@ -28,8 +28,10 @@ Mapper::~Mapper() {
 }
 
 void Mapper::start(const InitialMap& initial) {
-  const KeyframeId first = map_.add_keyframe(geometry::Pose(), initial.first);
-  const KeyframeId second = map_.add_keyframe(initial.second_from_first.inverse(), initial.second);
+  const KeyframeId first =
+      map_.add_keyframe({geometry::Pose(), initial.first_readout_twist}, initial.first);
+  const KeyframeId second =
+      map_.add_keyframe({initial.second_from_first, initial.second_readout_twist}, initial.second);
   for (const InitialMap::Point& p : initial.points) {
     const PointId id = map_.add_point(p.position);
     map_.add_sighting(id, {first, p.first_pixel, p.level});
@@ -96,7 +98,9 @@ void Mapper::run() {
 void Mapper::integrate(const KeyframeRequest& request) {
   weigh(request.evidence);
   const KeyframeId id = map_.add_keyframe(
-      map_.keyframe(request.reference).world_from_camera * request.reference_from_camera,
+      {(map_.keyframe(request.reference).world_from_camera * request.reference_from_camera)
+           .inverse(),
+       request.readout_twist},
       request.pyramid);
   for (auto [point, sighting] : request.sightings) {
     if (!map_.has_point(point)) continue;

@@ -27,6 +27,7 @@ struct PointEvidence {
 struct KeyframeRequest {
   KeyframeId reference = -1;  ///< keyframe its pose is relative to, so that corrections move it
   geometry::Pose reference_from_camera;
+  geometry::Vector6d readout_twist = geometry::Vector6d::Zero();  ///< see geometry::FramePose
   std::shared_ptr<const Pyramid> pyramid;
   std::vector<std::pair<PointId, Sighting>> sightings;  ///< their keyframe is set by the mapper
   std::vector<PointEvidence> evidence;                  ///< since the last request

@@ -58,13 +58,15 @@ std::optional<PreparedPatch> prepare(const geometry::Camera& camera, const Map::
 std::optional<Eigen::Vector2d> search_epipolar_line(const geometry::Camera& camera,
                                                     const PreparedPatch& prepared,
                                                     const hal::Image& image,
-                                                    const geometry::Pose& target_from_source,
+                                                    const geometry::Pose& source_from_world,
+                                                    const geometry::FramePose& target,
                                                     const Eigen::Vector3d& ray, double depth) {
+  const geometry::Pose world_from_source = source_from_world.inverse();
+  const geometry::Pose target_from_source = target.camera_from_world * world_from_source;
   const double nearest = 1.0 / (kNearest * depth);
   const double farthest = 1.0 / (kFarthest * depth);
   const auto at = [&](double inverse_depth) -> std::optional<Eigen::Vector2d> {
-    const auto pixel = camera.project(target_from_source.rotation * ray +
-                                      inverse_depth * target_from_source.translation);
+    const auto pixel = geometry::project(camera, target, world_from_source * (ray / inverse_depth));
     if (!pixel || !camera.contains(*pixel, 0.0)) return std::nullopt;
     return to_level(*pixel, prepared.level);
   };
@@ -99,9 +101,9 @@ std::optional<Eigen::Vector2d> search_epipolar_line(const geometry::Camera& came
   return align_patch(image, prepared.patch, refined->pixel);
 }
 
-double error_px(const geometry::Camera& camera, const geometry::Pose& camera_from_world,
+double error_px(const geometry::Camera& camera, const geometry::FramePose& pose,
                 const Eigen::Vector3d& point, const Eigen::Vector2d& pixel) {
-  const auto projected = camera.project(camera_from_world * point);
+  const auto projected = geometry::project(camera, pose, point);
   return projected ? (*projected - pixel).norm() : 1e9;
 }
 
@@ -122,22 +124,25 @@ std::optional<NewPoint> triangulate_corner(const geometry::Camera& camera, const
   const auto prepared =
       prepare(camera, keyframe, pixel, corner.level, keyframe.median_depth, partner);
   if (!prepared) return std::nullopt;
-  const geometry::Pose camera_from_world = keyframe.world_from_camera.inverse();
-  const geometry::Pose partner_from_world = partner.world_from_camera.inverse();
+  const geometry::FramePose pose = keyframe.frame_pose();
+  const geometry::FramePose partner_pose = partner.frame_pose();
+  const geometry::Pose camera_from_world = geometry::pose_at_row(camera, pose, pixel.y());
   const auto found = search_epipolar_line(
-      camera, *prepared, partner.pyramid->level(prepared->level),
-      partner_from_world * keyframe.world_from_camera, ray->homogeneous(), keyframe.median_depth);
+      camera, *prepared, partner.pyramid->level(prepared->level), camera_from_world, partner_pose,
+      ray->homogeneous(), keyframe.median_depth);
   if (!found) return std::nullopt;
   const Eigen::Vector2d partner_pixel = from_level(*found, prepared->level);
   const auto partner_ray = camera.unproject(partner_pixel);
   if (!partner_ray) return std::nullopt;
+  const geometry::Pose partner_from_world =
+      geometry::pose_at_row(camera, partner_pose, partner_pixel.y());
   const auto point =
       geometry::triangulate(camera_from_world, partner_from_world, ray->homogeneous().normalized(),
                             partner_ray->homogeneous().normalized());
   if (!point ||
       geometry::parallax_angle(camera_from_world, partner_from_world, *point) < kMinParallax ||
-      error_px(camera, camera_from_world, *point, pixel) > kMaxErrorPx * (1 << corner.level) ||
-      error_px(camera, partner_from_world, *point, partner_pixel) >
+      error_px(camera, pose, *point, pixel) > kMaxErrorPx * (1 << corner.level) ||
+      error_px(camera, partner_pose, *point, partner_pixel) >
           kMaxErrorPx * (1 << prepared->level)) {
     return std::nullopt;
   }
@@ -195,11 +200,11 @@ std::vector<KeyframeId> partners_of(const Map& map, KeyframeId id) {
 void find_known_points(const geometry::Camera& camera, Map& map, KeyframeId id,
                        const MapView& candidates) {
   const Map::Keyframe& keyframe = map.keyframe(id);
-  const geometry::Pose camera_from_world = keyframe.world_from_camera.inverse();
-  const SearchResult found = search_map(camera, candidates, *keyframe.pyramid, camera_from_world,
+  const geometry::FramePose pose = keyframe.frame_pose();
+  const SearchResult found = search_map(camera, candidates, *keyframe.pyramid, pose,
                                         {0, kKnownRadius, kMaxKnown, kEpipolarCorrelation});
   for (const Measurement& m : found.measurements) {
-    if (error_px(camera, camera_from_world, m.position, m.pixel) > kMaxErrorPx * (1 << m.level)) {
+    if (error_px(camera, pose, m.position, m.pixel) > kMaxErrorPx * (1 << m.level)) {
       continue;
     }
     map.add_sighting(candidates.points[m.point].id, {id, m.pixel, m.level});

@@ -24,14 +24,16 @@ struct Residual {
 };
 
 Residual residual_of(const geometry::Camera& camera, const Measurement& m,
-                     const geometry::Pose& camera_from_world) {
+                     const geometry::FramePose& pose) {
   Residual r;
-  const Eigen::Vector3d p = camera_from_world * m.position;
+  const Eigen::Vector3d p = geometry::row_from_frame(camera, pose.readout_twist, m.pixel.y()) *
+                            (pose.camera_from_world * m.position);
   Eigen::Matrix<double, 2, 3> by_point;
   const auto pixel = camera.project(p, &by_point);
   if (!pixel) return r;
   const double inverse_scale = 1.0 / static_cast<double>(1 << m.level);
   r.error = (m.pixel - *pixel) * inverse_scale;
+  // By a twist of the row's pose; that of the middle row differs in the second order only.
   r.jacobian.leftCols<3>() = by_point * inverse_scale;
   r.jacobian.rightCols<3>() = -by_point * inverse_scale * geometry::skew(p);
   r.valid = true;
@@ -49,35 +51,40 @@ double robust_sigma(const std::vector<Residual>& residuals) {
   return std::clamp(geometry::median(std::move(lengths)) / 1.1774, kMinSigma, kMaxSigma);
 }
 
+/// One step of iteratively reweighted least squares; returns the squared length of the twist.
+double improve(const std::vector<Residual>& residuals, PoseEstimate& estimate) {
+  const double cutoff = kTukey * estimate.sigma_px;
+  geometry::Matrix6d hessian = geometry::Matrix6d::Identity() * 1e-9;
+  geometry::Vector6d gradient = geometry::Vector6d::Zero();
+  for (const Residual& r : residuals) {
+    if (!r.valid) continue;
+    const double weight = geometry::tukey_weight(r.error.norm(), cutoff);
+    if (weight == 0.0) continue;
+    hessian.noalias() += weight * r.jacobian.transpose() * r.jacobian;
+    gradient.noalias() += weight * r.jacobian.transpose() * r.error;
+  }
+  const geometry::Vector6d step = hessian.ldlt().solve(gradient);
+  if (!step.allFinite()) return 0.0;
+  estimate.pose.camera_from_world = geometry::exp_se3(step) * estimate.pose.camera_from_world;
+  return step.squaredNorm();
+}
+
 }  // namespace
 
 PoseEstimate estimate_pose(const geometry::Camera& camera, std::span<Measurement> measurements,
-                           const geometry::Pose& start, int iterations) {
+                           const geometry::FramePose& start, int iterations) {
   PoseEstimate estimate{start, 0, kMaxSigma};
   std::vector<Residual> residuals(measurements.size());
   for (int iteration = 0; iteration < iterations; ++iteration) {
     for (std::size_t i = 0; i < measurements.size(); ++i) {
-      residuals[i] = residual_of(camera, measurements[i], estimate.camera_from_world);
+      residuals[i] = residual_of(camera, measurements[i], estimate.pose);
     }
     estimate.sigma_px = robust_sigma(residuals);
-    const double cutoff = kTukey * estimate.sigma_px;
-    geometry::Matrix6d hessian = geometry::Matrix6d::Identity() * 1e-9;
-    geometry::Vector6d gradient = geometry::Vector6d::Zero();
-    for (const Residual& r : residuals) {
-      if (!r.valid) continue;
-      const double weight = geometry::tukey_weight(r.error.norm(), cutoff);
-      if (weight == 0.0) continue;
-      hessian.noalias() += weight * r.jacobian.transpose() * r.jacobian;
-      gradient.noalias() += weight * r.jacobian.transpose() * r.error;
-    }
-    const geometry::Vector6d step = hessian.ldlt().solve(gradient);
-    if (!step.allFinite()) break;
-    estimate.camera_from_world = geometry::exp_se3(step) * estimate.camera_from_world;
-    if (step.squaredNorm() < 1e-14) break;
+    if (improve(residuals, estimate) < 1e-14) break;
   }
   const double bound = std::min(kTukey * estimate.sigma_px, kMaxInlierError);
   for (Measurement& m : measurements) {
-    const Residual r = residual_of(camera, m, estimate.camera_from_world);
+    const Residual r = residual_of(camera, m, estimate.pose);
     m.inlier = r.valid && r.error.norm() < bound;
     estimate.inliers += m.inlier ? 1 : 0;
   }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geometry/camera.h"
-#include "geometry/pose.h"
+#include "geometry/rolling_shutter.h"
 
 namespace lumibox::tracking {
 
@@ -19,7 +19,7 @@ struct Measurement {
 };
 
 struct PoseEstimate {
-  geometry::Pose camera_from_world;
+  geometry::FramePose pose;
   int inliers = 0;
   double sigma_px = 0.0;  ///< robust standard deviation of the residuals, in pixels of their level
 };
@@ -27,7 +27,11 @@ struct PoseEstimate {
 /// Pose that minimises Tukey's biweight of the reprojection errors, each in pixels of its level, by
 /// iteratively reweighted least squares on SE(3) from `start`; the scale is the median absolute
 /// deviation (Klein and Murray, ISMAR 2007, section 5.4). Marks the inliers.
+///
+/// The motion during the readout of a rolling shutter is taken from `start` and not estimated: one
+/// picture cannot tell it from a scene that is sheared a little, and errors of both would grow
+/// together.
 PoseEstimate estimate_pose(const geometry::Camera& camera, std::span<Measurement> measurements,
-                           const geometry::Pose& start, int iterations);
+                           const geometry::FramePose& start, int iterations);
 
 }  // namespace lumibox::tracking

@@ -23,6 +23,8 @@ constexpr int kMinKeyframeGap = 4;             // frames
 constexpr std::size_t kMaxEvidence = 100000;   // about a hundred frames' worth
 constexpr double kRefreshShare = 0.5;          // of the nearest keyframe's points still measured
 constexpr double kMinRefreshBaseline = 0.012;  // of the depth: without a baseline, no new points
+constexpr double kMinIntervalS = 1e-3;         // against times that stand still
+constexpr double kMaxIntervalS = 0.2;          // a hand does not go on as it did for longer
 constexpr double kPriorAgreement = 1.5 * std::numbers::pi / 180.0;
 
 }  // namespace
@@ -65,13 +67,18 @@ class Tracker::Impl {
     result.timestamp_ns = timestamp_ns;
     const auto frame = std::make_shared<const Pyramid>(gray, options_.pyramid_levels);
     SmallImage small(*frame);
+    interval_s_ = std::clamp(1e-9 * static_cast<double>(timestamp_ns - last_timestamp_ns_),
+                             kMinIntervalS, kMaxIntervalS);
+    last_timestamp_ns_ = timestamp_ns;
     visible_.clear();
     if (!map_) {
       initialise(frame, result);
     } else {
       adopt_newest_map();
+      if (lost_) velocity_.reset();
       const auto found = lost_ ? relocalise(*frame, small) : localise_from_motion(*frame, small);
       judge(found, small, result);
+      complete_keyframe(result.state == TrackingState::Good);
       if (result.state == TrackingState::Good) request_keyframe_if_new(frame, *found);
     }
     last_small_ = std::move(small);
@@ -123,7 +130,7 @@ class Tracker::Impl {
   }
 
   void initialise(const std::shared_ptr<const Pyramid>& frame, TrackedFrame& result) {
-    const Initialiser::Progress progress = initialiser_.add(frame);
+    const Initialiser::Progress progress = initialiser_.add(frame, result.timestamp_ns);
     result.state = TrackingState::Initialising;
     result.reason = progress.reason;
     if (!progress.map) return;
@@ -144,21 +151,43 @@ class Tracker::Impl {
     camera_from_world_ = (keyframe(anchor_).world_from_camera * anchor_from_camera_).inverse();
   }
 
-  /// Motion model: constant velocity, unless the picture says that the camera turned otherwise;
-  /// then the turn that the picture shows, without translation.
-  geometry::Pose predict(const SmallImage& small) const {
+  /// Motion since the last frame: constant velocity, unless the picture says that the camera turned
+  /// otherwise; then the turn that the picture shows, without translation.
+  geometry::Pose predict_motion(const SmallImage& small) const {
+    const geometry::Pose steady =
+        geometry::exp_se3(interval_s_ * velocity_.value_or(geometry::Vector6d::Zero()));
     const RotationPrior prior = estimate_rotation(camera_, last_small_, small);
     const double disagreement =
-        geometry::log_so3(prior.current_from_last * current_from_last_.rotation.conjugate()).norm();
+        geometry::log_so3(prior.current_from_last * steady.rotation.conjugate()).norm();
     if (prior.residual < 1e8 && disagreement > kPriorAgreement) {
-      return geometry::Pose(prior.current_from_last, Eigen::Vector3d::Zero()) * camera_from_world_;
+      return {prior.current_from_last, Eigen::Vector3d::Zero()};
     }
-    return current_from_last_ * camera_from_world_;
+    return steady;
+  }
+
+  geometry::FramePose predict(const SmallImage& small) const {
+    const geometry::Pose motion = predict_motion(small);
+    return {motion * camera_from_world_,
+            camera_.profile().readout_s / interval_s_ * geometry::log_se3(motion)};
   }
 
   std::optional<Localisation> localise_from_motion(const Pyramid& frame, const SmallImage& small) {
-    const geometry::Pose predicted = predict(small);
-    return localise(camera_, options_, *map_, frame, predicted);
+    auto found = localise(camera_, options_, *map_, frame, predict(small));
+    if (found && camera_.profile().readout_s > 0.0) refine_readout(*found);
+    return found;
+  }
+
+  /// The motion during this readout is that since the last frame, and as much change as there was
+  /// before: half an interval lies between the middle of that motion and this frame.
+  void refine_readout(Localisation& found) const {
+    const geometry::Vector6d mean_velocity =
+        geometry::log_se3(found.pose.camera_from_world * camera_from_world_.inverse()) /
+        interval_s_;
+    const geometry::Vector6d change = mean_velocity - velocity_.value_or(mean_velocity);
+    found.pose.readout_twist = camera_.profile().readout_s * (mean_velocity + 0.5 * change);
+    const PoseEstimate estimate = estimate_pose(camera_, found.measurements, found.pose, 10);
+    found.pose = estimate.pose;
+    found.inliers = estimate.inliers;
   }
 
   std::optional<Localisation> relocalise(const Pyramid& frame, const SmallImage& small) {
@@ -171,8 +200,7 @@ class Tracker::Impl {
     lost_ = false;
     bad_frames_ = 0;
     ++relocalisations_;
-    current_from_last_ = geometry::Pose();
-    camera_from_world_ = found->camera_from_world;
+    camera_from_world_ = found->pose.camera_from_world;
     return found;
   }
 
@@ -189,11 +217,12 @@ class Tracker::Impl {
     if (bad_frames_ >= options_.lost_after_frames) lost_ = true;
     if (lost_ || !usable) {
       result.state = lost_ ? TrackingState::Lost : TrackingState::Poor;
-      current_from_last_ = geometry::Pose();
+      velocity_.reset();
       return;
     }
-    current_from_last_ = found->camera_from_world * camera_from_world_.inverse();
-    camera_from_world_ = found->camera_from_world;
+    velocity_ = geometry::log_se3(found->pose.camera_from_world * camera_from_world_.inverse()) /
+                interval_s_;
+    camera_from_world_ = found->pose.camera_from_world;
     choose_anchor();
     gather_evidence(*found);
     if (good) result.reason = TrackingReason::None;
@@ -264,14 +293,37 @@ class Tracker::Impl {
                                                                   options_.max_measurements) &&
                          baseline > kMinRefreshBaseline;
     if (!parallax && !refresh) return;
-    KeyframeRequest request{anchor_, anchor_from_camera_, frame, {}, std::move(evidence_)};
+    KeyframeRequest request{anchor_, anchor_from_camera_, found.pose.readout_twist, frame,
+                            {},      std::move(evidence_)};
     evidence_.clear();
     for (const Measurement& m : found.measurements) {
       if (m.inlier)
         request.sightings.emplace_back(map_->points[m.point].id, Sighting{-1, m.pixel, m.level});
     }
     frames_since_keyframe_ = 0;
-    mapper_.request(std::move(request));
+    if (camera_.profile().readout_s == 0.0) {
+      mapper_.request(std::move(request));
+    } else {
+      pending_.emplace(PendingKeyframe{std::move(request), found, *velocity_, interval_s_});
+    }
+  }
+
+  /// Of a rolling shutter a keyframe waits for the frame after it: the motion during its readout is
+  /// then known from both sides, to the second order, and its pose with it.
+  void complete_keyframe(bool has_next) {
+    if (!pending_) return;
+    PendingKeyframe p = std::move(*pending_);
+    pending_.reset();
+    if (!has_next || !velocity_) return;
+    const geometry::Vector6d velocity =
+        (p.interval_s * p.velocity + interval_s_ * *velocity_) / (p.interval_s + interval_s_);
+    p.found.pose.readout_twist = camera_.profile().readout_s * velocity;
+    const PoseEstimate estimate = estimate_pose(camera_, p.found.measurements, p.found.pose, 10);
+    p.request.reference_from_camera = p.request.reference_from_camera *
+                                      p.found.pose.camera_from_world *
+                                      estimate.pose.camera_from_world.inverse();
+    p.request.readout_twist = estimate.pose.readout_twist;
+    mapper_.request(std::move(p.request));
   }
 
   const geometry::Camera camera_;
@@ -280,15 +332,25 @@ class Tracker::Impl {
   Mapper mapper_;
   Relocaliser relocaliser_;
 
-  std::shared_ptr<const MapView> map_;  // the copy in use; null before initialisation
-  geometry::Pose camera_from_world_;    // of the last frame with a pose
-  geometry::Pose current_from_last_;    // its motion since the one before
+  std::shared_ptr<const MapView> map_;          // the copy in use; null before initialisation
+  geometry::Pose camera_from_world_;            // of the last frame with a pose
+  std::optional<geometry::Vector6d> velocity_;  // twist per second from the left, to the last frame
+  double interval_s_ = 0.0;                     // since the last frame
+  std::int64_t last_timestamp_ns_ = 0;
   SmallImage last_small_;
   KeyframeId anchor_ = -1;
   geometry::Pose anchor_from_camera_;
   bool lost_ = false;
   int bad_frames_ = 0;
   int frames_since_keyframe_ = 0;
+
+  struct PendingKeyframe {
+    KeyframeRequest request;
+    Localisation found;
+    geometry::Vector6d velocity;  // since the frame before it
+    double interval_s;            // since then
+  };
+  std::optional<PendingKeyframe> pending_;
   int relocalisations_ = 0;
   std::vector<PointEvidence> evidence_;
   std::vector<Eigen::Vector3d> visible_;

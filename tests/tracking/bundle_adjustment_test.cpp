@@ -32,7 +32,7 @@ Truth make_truth() {
           truth.camera.project(truth.problem.views[static_cast<std::size_t>(v)].camera_from_world *
                                truth.problem.points[static_cast<std::size_t>(p)]);
       if (pixel && truth.camera.contains(*pixel)) {
-        truth.problem.observations.push_back({v, p, *pixel, 1.0, 0.0});
+        truth.problem.observations.push_back({v, p, *pixel, 1.0, {}, 0.0});
       }
     }
   }

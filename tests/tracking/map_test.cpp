@@ -11,7 +11,8 @@ class MapTest : public ::testing::Test {
  protected:
   MapTest() : pyramid_(std::make_shared<const Pyramid>(hal::Image(32, 32, 1), 2)) {
     for (int i = 0; i < 3; ++i) {
-      map_.add_keyframe({Eigen::Quaterniond::Identity(), Eigen::Vector3d(i, 0, 0)}, pyramid_);
+      map_.add_keyframe(geometry::Pose(Eigen::Quaterniond::Identity(), Eigen::Vector3d(-i, 0, 0)),
+                        pyramid_);
     }
     for (int i = 0; i < 4; ++i) {
       const PointId id = map_.add_point(Eigen::Vector3d(0, 0, 2 + i));

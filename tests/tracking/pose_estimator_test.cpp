@@ -46,7 +46,7 @@ TEST(PoseEstimator, ExactMeasurementsGiveTheExactPose) {
   const geometry::Pose start =
       geometry::exp_se3(geometry::Vector6d::Constant(0.01)) * scene.camera_from_world;
   const auto estimate = estimate_pose(scene.camera, scene.measurements, start, 20);
-  EXPECT_LT(error_of(scene, estimate.camera_from_world).norm(), 1e-9);
+  EXPECT_LT(error_of(scene, estimate.pose.camera_from_world).norm(), 1e-9);
   EXPECT_EQ(estimate.inliers, 100);
 }
 
@@ -57,7 +57,7 @@ TEST(PoseEstimator, ThirtyPercentOutliersDoNotMatter) {
   const geometry::Pose start =
       geometry::exp_se3(geometry::Vector6d::Constant(0.01)) * scene.camera_from_world;
   const auto estimate = estimate_pose(scene.camera, scene.measurements, start, 20);
-  EXPECT_LT(error_of(scene, estimate.camera_from_world).norm(), 5e-3);
+  EXPECT_LT(error_of(scene, estimate.pose.camera_from_world).norm(), 5e-3);
   EXPECT_GT(estimate.inliers, 125);
   EXPECT_LT(estimate.inliers, 160);
 }
@@ -66,7 +66,7 @@ TEST(PoseEstimator, NothingMeasuredKeepsTheStart) {
   std::vector<Measurement> none;
   const auto estimate = estimate_pose(geometry::Camera(), none, geometry::Pose(), 10);
   EXPECT_EQ(estimate.inliers, 0);
-  EXPECT_TRUE(estimate.camera_from_world.translation.isZero());
+  EXPECT_TRUE(estimate.pose.camera_from_world.translation.isZero());
 }
 
 TEST(PoseEstimator, PointsBehindTheCameraAreOutliers) {
