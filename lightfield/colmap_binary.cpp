@@ -1,8 +1,8 @@
 #include <array>
 
+#include "config/input_file.h"
 #include "lightfield/byte_reader.h"
 #include "lightfield/colmap_parts.h"
-#include "lightfield/durable_files.h"
 
 namespace lumibox::lightfield {
 namespace {
@@ -10,7 +10,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::map<std::int64_t, config::CameraProfile> read_cameras(const fs::path& file) {
-  const std::vector<std::uint8_t> bytes = read_bytes(file);
+  const std::vector<std::uint8_t> bytes = config::read_bytes(file);
   ByteReader reader(bytes, file);
   std::map<std::int64_t, config::CameraProfile> cameras;
   const auto count = reader.read<std::uint64_t>();
@@ -33,7 +33,7 @@ std::map<std::int64_t, config::CameraProfile> read_cameras(const fs::path& file)
 }
 
 std::vector<ColmapImage> read_images(const fs::path& file) {
-  const std::vector<std::uint8_t> bytes = read_bytes(file);
+  const std::vector<std::uint8_t> bytes = config::read_bytes(file);
   ByteReader reader(bytes, file);
   std::vector<ColmapImage> images;
   const auto count = reader.read<std::uint64_t>();
@@ -55,7 +55,7 @@ std::vector<ColmapImage> read_images(const fs::path& file) {
 }
 
 std::vector<Eigen::Vector3d> read_points(const fs::path& file) {
-  const std::vector<std::uint8_t> bytes = read_bytes(file);
+  const std::vector<std::uint8_t> bytes = config::read_bytes(file);
   ByteReader reader(bytes, file);
   std::vector<Eigen::Vector3d> points;
   const auto count = reader.read<std::uint64_t>();

@@ -2,8 +2,8 @@
 #include <optional>
 
 #include "config/error.h"
+#include "config/input_file.h"
 #include "lightfield/colmap_parts.h"
-#include "lightfield/durable_files.h"
 #include "lightfield/text_numbers.h"
 
 namespace lumibox::lightfield {
@@ -14,10 +14,7 @@ namespace fs = std::filesystem;
 /// A text file line by line; comments are left out, empty lines are not.
 class Lines {
  public:
-  explicit Lines(const fs::path& file) : file_(file) {
-    const std::vector<std::uint8_t> bytes = read_bytes(file);
-    text_.assign(bytes.begin(), bytes.end());
-  }
+  explicit Lines(const fs::path& file) : file_(file), text_(config::read_text(file)) {}
 
   /// Next line without its end, or none.
   std::optional<std::string_view> next() {

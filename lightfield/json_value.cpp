@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "config/error.h"
-#include "lightfield/durable_files.h"
+#include "config/input_file.h"
 
 namespace lumibox::lightfield {
 
@@ -74,7 +74,7 @@ void JsonValue::fail_type(const char* expected) const {
 }
 
 JsonFile::JsonFile(const std::filesystem::path& path) : path_(path) {
-  const std::vector<std::uint8_t> bytes = read_bytes(path);
+  const std::vector<std::uint8_t> bytes = config::read_bytes(path);
   try {
     json_ = nlohmann::json::parse(bytes);
   } catch (const nlohmann::json::parse_error& error) {

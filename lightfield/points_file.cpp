@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "config/input_file.h"
 #include "lightfield/byte_reader.h"
-#include "lightfield/durable_files.h"
 #include "lightfield/text_numbers.h"
 
 namespace lumibox::lightfield {
@@ -132,7 +132,7 @@ std::vector<std::uint8_t> encode_ply(const std::vector<Eigen::Vector3d>& points)
 }
 
 std::vector<Eigen::Vector3d> read_ply(const std::filesystem::path& path) {
-  const std::vector<std::uint8_t> bytes = read_bytes(path);
+  const std::vector<std::uint8_t> bytes = config::read_bytes(path);
   ByteReader reader(bytes, path);
   const Header header = read_header(reader);
   std::vector<Eigen::Vector3d> points;

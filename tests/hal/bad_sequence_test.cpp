@@ -230,6 +230,11 @@ TEST_F(BadSequence, SubjectWithoutARadius) {
   }
 }
 
+TEST_F(BadSequence, FileTooLargeToRead) {
+  fs::resize_file(recording_.folder() / "rgb.txt", std::uintmax_t{1} << 40U);
+  EXPECT_THAT(complaint(), HasSubstr("rgb.txt: 1099511627776 bytes; expected at most"));
+}
+
 TEST_F(BadSequence, BinaryInPlaceOfText) {
   for (const char* file : {"rgb.txt", "calib.txt", "groundtruth.txt", "subject.txt"}) {
     const std::string before = testing::read_text(recording_.folder() / file);

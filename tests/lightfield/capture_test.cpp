@@ -44,7 +44,7 @@ TEST_F(BadCapture, NoFolder) {
 
 TEST_F(BadCapture, NoTransforms) {
   fs::remove(transforms_);
-  EXPECT_THAT(load(), HasSubstr("transforms.json: there is no such file"));
+  EXPECT_THAT(load(), HasSubstr("transforms.json: no such file"));
 }
 
 TEST_F(BadCapture, SyntaxErrorNamesItsLine) {
@@ -138,7 +138,7 @@ TEST_F(BadCapture, PathThatLeavesTheFolder) {
   const fs::path outside = folder_ / "outside.jpg";
   fs::copy_file(folder_ / "c/images/000000.jpg", outside);
   for (const std::string& path : {std::string("../outside.jpg"), outside.string(),
-                                 std::string("images/../../outside.jpg"), std::string()}) {
+                                  std::string("images/../../outside.jpg"), std::string()}) {
     EXPECT_THAT(load_with([&](json& j) { j["frames"][0]["file_path"] = path; }),
                 HasSubstr("expected a path inside the folder"));
   }

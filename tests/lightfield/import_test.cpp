@@ -113,6 +113,15 @@ TEST(ImportTransforms, RefusesWhatItCannotRepresent) {
               HasSubstr("w is 1.5, expected an in"));
 }
 
+// A sparse file costs its author nothing, and the memory of whoever reads it.
+TEST(ImportTransforms, RefusesAFileTooLargeToRead) {
+  const TemporaryFolder folder;
+  write_text(folder / "transforms.json", "{}");
+  fs::resize_file(folder / "transforms.json", std::uintmax_t{1} << 40U);
+  EXPECT_THAT(input_error([&] { import_capture(folder / "transforms.json"); }),
+              HasSubstr("transforms.json: 1099511627776 bytes; expected at most 1073741824"));
+}
+
 TEST(ImportTransforms, WithoutFramesOrFile) {
   const TemporaryFolder folder;
   write_text(folder / "transforms.json", R"({"frames":[]})");
