@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "config/input_file.h"
+#include "geometry/position.h"
 #include "lightfield/byte_reader.h"
 #include "lightfield/text_numbers.h"
 
@@ -139,8 +140,8 @@ std::vector<Eigen::Vector3d> read_ply(const std::filesystem::path& path) {
   for (std::uint64_t i = 0; i < header.vertices; ++i) {
     points.push_back(header.binary ? read_binary_vertex(reader, header)
                                    : read_ascii_vertex(reader, header));
-    if (!points.back().allFinite()) {
-      reader.fail("vertex " + std::to_string(i) + " is not finite");
+    if (const auto fault = geometry::fault_of_position(points.back())) {
+      reader.fail("vertex " + std::to_string(i) + " has " + *fault);
     }
   }
   return points;

@@ -111,7 +111,7 @@ TEST_F(BadCapture, NumberTooLarge) {
 }
 
 TEST_F(BadCapture, ZeroFocalLength) {
-  EXPECT_THAT(load_with([](json& j) { j["fl_x"] = -1.0; }), HasSubstr("focal length"));
+  EXPECT_THAT(load_with([](json& j) { j["fl_x"] = -1.0; }), HasSubstr("fx is -1; expected"));
 }
 
 TEST_F(BadCapture, MissingPicturesAreListed) {
@@ -156,7 +156,7 @@ TEST_F(BadCapture, SameIdTwice) {
 
 TEST_F(BadCapture, SphereWithoutSize) {
   EXPECT_THAT(load_with([](json& j) { j["lumibox"]["subject"]["radius"] = 0; }),
-              HasSubstr("lumibox.subject.radius is not positive"));
+              HasSubstr("lumibox.subject.radius is "));
 }
 
 TEST_F(BadCapture, DamagedPoints) {
