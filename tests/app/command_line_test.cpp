@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -20,6 +21,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::read_text;
 using testing::Recording;
+using ::testing::StartsWith;
 using testing::TempDir;
 
 struct Outcome {
@@ -39,11 +41,12 @@ Outcome lumibox(const std::string& arguments) {
 }
 
 /// Exit status 1 and one line that begins as all complaints do and holds these words.
-#define EXPECT_COMPLAINT(outcome, words)                        \
-  do {                                                          \
-    const Outcome o = (outcome);                                \
-    EXPECT_EQ(o.status, 1) << o.err;                            \
-    EXPECT_THAT(o.err, AllOf(HasSubstr("lumibox: "), (words))); \
+#define EXPECT_COMPLAINT(outcome, words)                         \
+  do {                                                           \
+    const Outcome o = (outcome);                                 \
+    EXPECT_EQ(o.status, 1) << o.err;                             \
+    EXPECT_THAT(o.err, AllOf(StartsWith("lumibox: "), (words))); \
+    EXPECT_EQ(std::ranges::count(o.err, '\n'), 1) << o.err;      \
   } while (false)
 
 TEST(CommandLine, EveryCommandExplainsItselfWithAnExample) {
@@ -91,6 +94,14 @@ TEST(CommandLine, WhatIsNotThereYetSaysSo) {
   EXPECT_COMPLAINT(lumibox("render c --views v --out o --geometry mesh"),
                    HasSubstr("not available yet: plane"));
   EXPECT_COMPLAINT(lumibox("export c --format web --out o"), HasSubstr("not available yet"));
+}
+
+// The libraries that read videos have words of their own for what is wrong.
+TEST(CommandLine, BrokenVideoIsOneLine) {
+  const TempDir dir;
+  const auto video = dir.write("walk.mp4", "not a video");
+  EXPECT_COMPLAINT(lumibox("track " + video.string() + " --out " + (dir / "o.tum").string()),
+                   HasSubstr(video.string()));
 }
 
 TEST(CommandLine, FoldersThatHoldSomethingAreNotOverwritten) {
