@@ -37,6 +37,10 @@ void render_views(const RenderOptions& options) {
   }
   const render::Settings settings = settings_of(options, *capture.light_field.subject());
   const auto views = hal::read_tum_trajectory(options.views);
+  if (views.empty()) {
+    throw config::InputError(options.views,
+                             "holds no poses; expected lines `t tx ty tz qx qy qz qw`");
+  }
   const geometry::Camera camera =
       options.calibration ? geometry::Camera(hal::read_calibration(*options.calibration))
                           : *perspectives.front().camera;

@@ -49,6 +49,21 @@ Outcome lumibox(const std::string& arguments) {
     EXPECT_EQ(std::ranges::count(o.err, '\n'), 1) << o.err;      \
   } while (false)
 
+/// A capture of two pictures of the recording; its path.
+std::string small_capture(const Recording& recording) {
+  const auto frame = [](const char* file, const char* x) {
+    return std::string("{\"file_path\":\"") + file + "\",\"transform_matrix\":[[1,0,0," + x +
+           "],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}";
+  };
+  const auto file = recording.dir().write(
+      "transforms.json", "{\"fl_x\":30,\"frames\":[" + frame("rgb/000000.png", "0") + "," +
+                             frame("rgb/000001.png", "0.1") + "]}");
+  const std::string capture = (recording.folder() / "capture").string();
+  const Outcome outcome = lumibox("import " + file.string() + " " + capture);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return capture;
+}
+
 TEST(CommandLine, EveryCommandExplainsItselfWithAnExample) {
   EXPECT_THAT(lumibox("--help").out, HasSubstr("COMMAND --help"));
   for (const std::string command :
@@ -94,6 +109,16 @@ TEST(CommandLine, WhatIsNotThereYetSaysSo) {
   EXPECT_COMPLAINT(lumibox("render c --views v --out o --geometry mesh"),
                    HasSubstr("not available yet: plane"));
   EXPECT_COMPLAINT(lumibox("export c --format web --out o"), HasSubstr("not available yet"));
+}
+
+TEST(CommandLine, ViewsWithoutPosesAreRefused) {
+  const Recording recording;
+  const std::string capture = small_capture(recording);
+  const auto views = recording.dir().write("views.tum", "# none yet\n");
+  EXPECT_COMPLAINT(
+      lumibox("render " + capture + " --views " + views.string() + " --out " + capture + "_out"),
+      AllOf(HasSubstr(views.string()), HasSubstr("holds no poses; expected lines `t tx")));
+  EXPECT_FALSE(std::filesystem::exists(capture + "_out"));
 }
 
 // The libraries that read videos have words of their own for what is wrong.
