@@ -139,9 +139,11 @@ void add_render(CLI::App& app) {
       ->check(CLI::Range(0.0, 100.0))
       ->check(must_be_finite)
       ->type_name("X");
-  command->add_option("--geometry", options->geometry, "what the pictures are projected onto")
-      ->check(CLI::IsMember({"plane", "focal", "mesh"}))
-      ->capture_default_str();
+  command
+      ->add_option_function<std::string>(
+          "--geometry", [](const std::string&) {}, "what the pictures are projected onto")
+      ->check(CLI::IsMember({"plane"}))
+      ->default_str("plane");
   command
       ->add_option("--calib", options->calibration,
                    "intrinsics of the views (default: the capture's, undistorted)")
@@ -181,7 +183,7 @@ void add_export(CLI::App& app) {
       "lumibox export walk_capture/ --format colmap --out walk_colmap/", options, export_data_set);
   add_capture(command, options->capture);
   command->add_option("--format", options->format, "layout")
-      ->check(CLI::IsMember({"nerfstudio", "colmap", "llff", "web"}))
+      ->check(CLI::IsMember({"nerfstudio", "colmap"}))
       ->required();
   command->add_option("--out", options->out, "folder to be made")->type_name("PATH")->required();
 }

@@ -27,9 +27,6 @@ render::Settings settings_of(const RenderOptions& options, const lightfield::Sph
 }  // namespace
 
 void render_views(const RenderOptions& options) {
-  if (options.geometry != "plane") {
-    throw config::InputError("--geometry " + options.geometry + ": not available yet: plane");
-  }
   const lightfield::Capture capture = lightfield::load_capture(options.capture);
   const auto& perspectives = capture.light_field.perspectives();
   if (perspectives.empty() || !capture.light_field.subject()) {

@@ -105,10 +105,13 @@ TEST(CommandLine, BadSettingsAreNamed) {
   EXPECT_COMPLAINT(lumibox("run --config " + file.string()), HasSubstr(file.string() + ":2"));
 }
 
-TEST(CommandLine, WhatIsNotThereYetSaysSo) {
-  EXPECT_COMPLAINT(lumibox("render c --views v --out o --geometry mesh"),
-                   HasSubstr("not available yet: plane"));
-  EXPECT_COMPLAINT(lumibox("export c --format web --out o"), HasSubstr("not available yet"));
+TEST(CommandLine, OffersOnlyWhatItHas) {
+  const Outcome geometry = lumibox("render c --views v --out o --geometry mesh");
+  EXPECT_EQ(geometry.status, 2);
+  EXPECT_THAT(geometry.err, AllOf(HasSubstr("--geometry"), HasSubstr("mesh not in {plane}")));
+  const Outcome format = lumibox("export c --format web --out o");
+  EXPECT_EQ(format.status, 2);
+  EXPECT_THAT(format.err, AllOf(HasSubstr("--format"), HasSubstr("web not in {")));
 }
 
 TEST(CommandLine, ViewsWithoutPosesAreRefused) {
