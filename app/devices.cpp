@@ -50,6 +50,11 @@ std::unique_ptr<hal::Clock> open_clock(const std::string& text) {
 }
 
 std::unique_ptr<hal::Camera> open_camera(const std::string& text, const hal::Clock& clock) {
+  if (text.empty()) {
+    throw config::InputError(
+        "devices.camera is not set; expected sim:SCENE.toml or replay:SEQUENCE, in a --config file "
+        "or with --set devices.camera=...");
+  }
   const Name name = split(text);
   if (name.kind == "sim") {
     return std::make_unique<hal::SimCamera>(hal::load_scene(name.what), clock);

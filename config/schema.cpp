@@ -166,7 +166,7 @@ std::vector<Key> schema(Config& c) {
        "folder",
        &c.capture.folder,
        "path",
-       0,
+       1,
        0,
        {},
        "beside where the box was started"},

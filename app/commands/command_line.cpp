@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/commands/commands.h"
 #include "render/view.h"
@@ -199,12 +200,28 @@ void add_sim(CLI::App& app) {
       ->required();
 }
 
+/// CLI11 says of an unknown command only that one is required.
+std::string failure_message(const CLI::App* app, const CLI::Error& error) {
+  if (!app->get_subcommands().empty() || error.get_name() != "RequiredError") {
+    return CLI::FailureMessage::simple(app, error);
+  }
+  const std::vector<std::string> words = app->remaining();
+  std::string message = words.empty() ? "no command" : "no command '" + words.front() + "'";
+  const char* separator = "; expected ";
+  for (const CLI::App* command : app->get_subcommands({})) {
+    message += separator + command->get_name();
+    separator = ", ";
+  }
+  return message + "\nRun with --help for more information.\n";
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
   CLI::App app("Lumibox: walk around something, and a light field of it is on the screen.",
                "lumibox");
   app.require_subcommand(1);
+  app.failure_message(failure_message);
   app.set_version_flag("--version", LUMIBOX_VERSION);
   app.footer("`lumibox COMMAND --help` explains each command with an example.");
   add_run(app);

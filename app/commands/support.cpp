@@ -16,7 +16,13 @@ config::Config load_config(const config::Sources& sources) {
 
 void refuse_used_folder(const std::filesystem::path& folder) {
   std::error_code error;
-  if (std::filesystem::exists(folder, error) && !std::filesystem::is_empty(folder, error)) {
+  if (!std::filesystem::exists(folder, error)) {
+    return;
+  }
+  if (!std::filesystem::is_directory(folder, error)) {
+    throw config::InputError(folder, "is a file; expected an empty or absent folder");
+  }
+  if (!std::filesystem::is_empty(folder, error)) {
     throw config::InputError(folder, "is not empty; nothing recorded is ever overwritten");
   }
 }

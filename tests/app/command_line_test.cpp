@@ -114,6 +114,12 @@ TEST(CommandLine, OffersOnlyWhatItHas) {
   EXPECT_THAT(format.err, AllOf(HasSubstr("--format"), HasSubstr("web not in {")));
 }
 
+TEST(CommandLine, NamesTheCommandThatThereIsNot) {
+  EXPECT_THAT(lumibox("fly").err, AllOf(HasSubstr("fly"), HasSubstr("expected run, demo, track")));
+  EXPECT_THAT(lumibox("--fly").err, HasSubstr("--fly"));
+  EXPECT_THAT(lumibox("").err, HasSubstr("expected run, demo, track"));
+}
+
 TEST(CommandLine, ViewsWithoutPosesAreRefused) {
   const Recording recording;
   const std::string capture = small_capture(recording);
@@ -130,6 +136,10 @@ TEST(CommandLine, BrokenVideoIsOneLine) {
   const auto video = dir.write("walk.mp4", "not a video");
   EXPECT_COMPLAINT(lumibox("track " + video.string() + " --out " + (dir / "o.tum").string()),
                    HasSubstr(video.string()));
+}
+
+TEST(CommandLine, FileInPlaceOfTheFolderToBeMadeIsNamedAsSuch) {
+  EXPECT_COMPLAINT(lumibox("import x /dev/full"), HasSubstr("/dev/full: is a file; expected"));
 }
 
 TEST(CommandLine, FoldersThatHoldSomethingAreNotOverwritten) {

@@ -21,7 +21,8 @@ TEST(Devices, KindsThatThisBuildDoesNotHaveAreNamedWithThoseItHas) {
   EXPECT_THAT(complaint(config), AllOf(HasSubstr("devices.camera"), HasSubstr("v4l2:/dev/video0"),
                                        HasSubstr("not in this build"), HasSubstr("replay:")));
   config.devices.camera = "";
-  EXPECT_THAT(complaint(config), HasSubstr("devices.camera"));
+  EXPECT_THAT(complaint(config),
+              AllOf(HasSubstr("devices.camera is not set"), HasSubstr("sim:SCENE.toml")));
   config.devices.clock = "sundial";
   EXPECT_THAT(complaint(config), AllOf(HasSubstr("devices.clock"), HasSubstr("sundial")));
 }

@@ -127,6 +127,13 @@ TEST_F(ConfigFile, FolderInPlaceOfAFileIsRefused) {
               StartsWith(folder_.path().string() + ": a folder, not a file"));
 }
 
+TEST_F(ConfigFile, FolderForCapturesNeedsAName) {
+  EXPECT_THAT(complaint_about("[capture]\nfolder = ''\n"),
+              AllOf(StartsWith(at_line(2)),
+                    HasSubstr("capture.folder = \"\"; expected any text but an empty one")));
+  EXPECT_EQ(load_text("[devices]\ncamera = ''\n").devices.camera, "");
+}
+
 TEST_F(ConfigFile, ThresholdsThatContradictEachOtherAreRefused) {
   EXPECT_THAT(complaint_about("[capture]\nthreshold_min_deg = 20\nthreshold_max_deg = 10\n"),
               AllOf(HasSubstr("threshold_min_deg"), HasSubstr("threshold_max_deg")));
