@@ -5,6 +5,7 @@
 
 #include "config/error.h"
 #include "config/input_file.h"
+#include "lightfield/text_numbers.h"
 
 namespace lumibox::lightfield {
 
@@ -83,7 +84,7 @@ JsonFile::JsonFile(const std::filesystem::path& path) : path_(path) {
     const auto line = 1 + std::count(bytes.begin(), end, std::uint8_t{'\n'});
     throw config::InputError(path, static_cast<int>(line), "not valid JSON");
   } catch (const nlohmann::json::exception& error) {
-    throw config::InputError(path, std::string("not valid JSON: ") + error.what());
+    throw config::InputError(path, "not valid JSON: " + printable(error.what()));
   }
 }
 

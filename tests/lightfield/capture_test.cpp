@@ -108,6 +108,9 @@ TEST_F(BadCapture, NumberTooLarge) {
   text.replace(text.find("\"fl_x\": ") + 8, 1, "1e999");
   write_text(transforms_, text);
   EXPECT_THAT(load(), HasSubstr("transforms.json"));
+  text.replace(text.find("1e999"), 5, std::string(100000, '9'));
+  write_text(transforms_, text);
+  EXPECT_LT(load().size(), 300U);
 }
 
 TEST_F(BadCapture, ZeroFocalLength) {
