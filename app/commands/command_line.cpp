@@ -2,8 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,6 +22,11 @@ std::string must_be_finite(const std::string& text) {
   return std::isfinite(std::strtod(text.c_str(), nullptr))
              ? ""
              : "found " + text + "; expected a number";
+}
+
+/// A path of no letters would be the folder that the program happens to run in.
+std::string must_not_be_empty(const std::string& text) {
+  return text.empty() ? "found nothing; expected a word" : "";
 }
 
 /// A subcommand with the options that all have, and an example in its help.
@@ -100,7 +107,9 @@ void add_track(CLI::App& app) {
   command->add_option("--live", options->live, "trajectory as known when each frame was shown")
       ->type_name("LIVE.tum");
   command->add_option("--json", options->json, "statistics")->type_name("STATS");
-  command->add_option("--seed", options->seed, "of the random sampling")->type_name("N");
+  command->add_option("--seed", options->seed, "of the random sampling")
+      ->check(CLI::Range(std::uint32_t{0}, std::numeric_limits<std::uint32_t>::max()))
+      ->type_name("N");
   command->add_option("--calib", options->calibration, "calibration in place of the sequence's own")
       ->type_name("CALIB.txt");
   command->add_flag("--realtime", options->realtime,
@@ -232,6 +241,9 @@ int run_command_line(int argc, char** argv) {
   add_import(app);
   add_export(app);
   add_sim(app);
+  for (CLI::App* command : app.get_subcommands({})) {
+    for (CLI::Option* option : command->get_options()) option->check(must_not_be_empty);
+  }
   try {
     app.parse(argc, argv);  // runs the command named
     return 0;

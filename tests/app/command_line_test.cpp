@@ -77,8 +77,9 @@ TEST(CommandLine, EveryCommandExplainsItselfWithAnExample) {
 TEST(CommandLine, WrongUseExitsWithTwo) {
   for (const char* arguments :
        {"", "fly", "track", "track a b", "track walk --out t.tum --speed 3",
-        "track walk --out t.tum --seed many", "demo --rate nan",
-        "track walk --out t.tum --subject 1,2@3",
+        "track walk --out t.tum --seed many", "track walk --out t.tum --seed 4294967296",
+        "sim s.toml --out ''", "import '' c", "render c --views v --out o --calib ''",
+        "demo --rate nan", "track walk --out t.tum --subject 1,2@3",
         "track walk --out t.tum --capture c --subject middle", "render c --views v --out o --k 0",
         "render c --views v --out o --mode huge", "export c --format gltf --out o"}) {
     const Outcome outcome = lumibox(arguments);
@@ -118,6 +119,14 @@ TEST(CommandLine, NamesTheCommandThatThereIsNot) {
   EXPECT_THAT(lumibox("fly").err, AllOf(HasSubstr("fly"), HasSubstr("expected run, demo, track")));
   EXPECT_THAT(lumibox("--fly").err, HasSubstr("--fly"));
   EXPECT_THAT(lumibox("").err, HasSubstr("expected run, demo, track"));
+}
+
+TEST(CommandLine, SubjectInAFrameThatIsNotThereIsRefused) {
+  const Recording recording;
+  const std::string walk = recording.folder().string();
+  EXPECT_COMPLAINT(lumibox("track " + walk + " --out " + walk + "/o.tum --capture " + walk +
+                           "/c --subject 16,12@5"),
+                   HasSubstr("--subject: frame 5; the recording has 5, from 0"));
 }
 
 TEST(CommandLine, ViewsWithoutPosesAreRefused) {
