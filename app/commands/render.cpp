@@ -27,12 +27,13 @@ render::Settings settings_of(const RenderOptions& options, const lightfield::Sph
 }  // namespace
 
 void render_views(const RenderOptions& options) {
+  refuse_recorded(options.out, options.capture);
   const lightfield::Capture capture = lightfield::load_capture(options.capture);
   const auto& perspectives = capture.light_field.perspectives();
-  if (perspectives.empty() || !capture.light_field.subject()) {
+  if (perspectives.empty()) {
     throw config::InputError(options.capture, "holds no perspectives to render from");
   }
-  const render::Settings settings = settings_of(options, *capture.light_field.subject());
+  const render::Settings settings = settings_of(options, subject_of(capture));
   const auto views = hal::read_tum_trajectory(options.views);
   if (views.empty()) {
     throw config::InputError(options.views,

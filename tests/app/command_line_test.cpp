@@ -139,6 +139,35 @@ TEST(CommandLine, ViewsWithoutPosesAreRefused) {
   EXPECT_FALSE(std::filesystem::exists(capture + "_out"));
 }
 
+TEST(CommandLine, CaptureWithoutASubjectIsToldAsSuch) {
+  const Recording recording;
+  const std::string capture = small_capture(recording);
+  const auto views = recording.dir().write("views.tum", "0 0 0 0 0 0 0 1\n");
+  std::string text = read_text(capture + "/transforms.json");
+  text.replace(text.find("\"subject\""), 9, "\"nothing\"");
+  recording.dir().write("capture/transforms.json", text);
+  EXPECT_COMPLAINT(lumibox("evaluate " + capture), HasSubstr("names no subject"));
+  EXPECT_COMPLAINT(
+      lumibox("render " + capture + " --views " + views.string() + " --out " + capture + "_out"),
+      HasSubstr("names no subject"));
+}
+
+TEST(CommandLine, ResultsDoNotOverwriteTheCapture) {
+  const Recording recording;
+  const std::string capture = small_capture(recording);
+  const auto views = recording.dir().write("views.tum", "0 0 0 0 0 0 0 1\n");
+  const std::string before = read_text(capture + "/images/000000.png");
+  EXPECT_COMPLAINT(lumibox("render " + capture + "/ --views " + views.string() + " --out " +
+                           capture + "/images"),
+                   HasSubstr(capture + "/images: belongs to the capture"));
+  EXPECT_COMPLAINT(lumibox("evaluate " + capture + " --json " + capture + "/transforms.json"),
+                   HasSubstr("belongs to the capture"));
+  EXPECT_COMPLAINT(
+      lumibox("evaluate " + capture + " --pictures " + capture + "/../capture/images/"),
+      HasSubstr("belongs to the capture"));
+  EXPECT_EQ(read_text(capture + "/images/000000.png"), before);
+}
+
 // The libraries that read videos have words of their own for what is wrong.
 TEST(CommandLine, BrokenVideoIsOneLine) {
   const TempDir dir;
