@@ -1,15 +1,17 @@
 #include "app/button_script.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
 
 #include "config/error.h"
+#include "config/input_file.h"
 
 namespace lumibox::app {
 namespace {
@@ -29,6 +31,10 @@ std::optional<hal::Button> button_named(const std::string& name) {
     }
   }
   return std::nullopt;
+}
+
+std::string name_of(hal::Button button) {
+  return std::ranges::find(kButtons, button, [](const auto& entry) { return entry.second; })->first;
 }
 
 struct ScriptLine {
@@ -66,11 +72,9 @@ std::vector<hal::ButtonEvent> press_at(double time_s, const Gesture& gesture, do
 
 std::vector<hal::ButtonEvent> read_button_script(const std::filesystem::path& file,
                                                  double long_press_s) {
-  std::ifstream stream(file);
-  if (!stream) {
-    throw config::InputError(file, "cannot be opened; expected a script of button presses");
-  }
+  std::istringstream stream(config::read_text(file));
   std::vector<hal::ButtonEvent> events;
+  std::map<hal::Button, std::int64_t> released_ns;
   double last_s = 0.0;
   std::string text;
   for (int number = 1; std::getline(stream, text); ++number) {
@@ -89,9 +93,16 @@ std::vector<hal::ButtonEvent> read_button_script(const std::filesystem::path& fi
       throw config::InputError(file, number, "the time goes back");
     }
     last_s = line->time_s;
-    for (const hal::ButtonEvent& event : press_at(line->time_s, line->gesture, long_press_s)) {
-      events.push_back(event);
+    const auto press = press_at(line->time_s, line->gesture, long_press_s);
+    const auto before = released_ns.find(line->gesture.button);
+    if (before != released_ns.end() && press.front().timestamp_ns < before->second) {
+      throw config::InputError(file, number,
+                               name_of(line->gesture.button) + " is still held, until " +
+                                   std::to_string(1e-9 * static_cast<double>(before->second)) +
+                                   " s; expected a later press");
     }
+    released_ns[line->gesture.button] = press.back().timestamp_ns;
+    events.insert(events.end(), press.begin(), press.end());
   }
   return events;
 }

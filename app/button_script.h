@@ -12,8 +12,8 @@ namespace lumibox::app {
 std::vector<hal::ButtonEvent> press_at(double time_s, const Gesture& gesture, double long_press_s);
 
 /// Reads a script of button presses, one per line: `seconds button [long]`, the button one of main,
-/// review, plus, minus, wipe; `#` begins a comment. Times must not go back. Throws
-/// config::InputError with file and line.
+/// review, plus, minus, wipe; `#` begins a comment. Times must not go back, and a
+/// button must be up to be pressed. Throws config::InputError with file and line.
 std::vector<hal::ButtonEvent> read_button_script(const std::filesystem::path& file,
                                                  double long_press_s);
 

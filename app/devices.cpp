@@ -39,6 +39,15 @@ Name split(const std::string& text) {
                            "\" is not in this build; it has " + kinds);
 }
 
+/// What stands behind the colon, which must be something.
+const std::string& what_of(const Name& name, const char* option, const char* expected) {
+  if (name.what.empty()) {
+    throw config::InputError(std::string("devices.") + option + ": \"" + name.kind +
+                             "\" without a name; expected " + expected);
+  }
+  return name.what;
+}
+
 std::unique_ptr<hal::Clock> open_clock(const std::string& text) {
   if (text == "system") {
     return std::make_unique<hal::SystemClock>();
@@ -50,13 +59,20 @@ std::unique_ptr<hal::Clock> open_clock(const std::string& text) {
 }
 
 std::unique_ptr<hal::Camera> open_camera(const std::string& text, const hal::Clock& clock) {
+  if (text.empty()) {
+    throw config::InputError(
+        "devices.camera is not set; expected sim:SCENE.toml or replay:SEQUENCE, in a --config file "
+        "or with --set devices.camera=...");
+  }
   const Name name = split(text);
   if (name.kind == "sim") {
-    return std::make_unique<hal::SimCamera>(hal::load_scene(name.what), clock);
+    return std::make_unique<hal::SimCamera>(
+        hal::load_scene(what_of(name, "camera", "sim:SCENE.toml")), clock);
   }
   if (name.kind == "replay") {
-    return std::make_unique<hal::ReplayCamera>(hal::open_sequence(name.what), clock,
-                                               hal::Pacing::Recorded);
+    return std::make_unique<hal::ReplayCamera>(
+        hal::open_sequence(what_of(name, "camera", "replay:SEQUENCE")), clock,
+        hal::Pacing::Recorded);
   }
   refuse("camera", text, "sim:SCENE.toml and replay:SEQUENCE");
 }
@@ -65,8 +81,8 @@ std::unique_ptr<hal::Buttons> open_buttons(const std::string& text, double long_
                                            const hal::Clock& clock) {
   const Name name = split(text);
   if (name.kind == "script") {
-    return std::make_unique<hal::ScriptedButtons>(read_button_script(name.what, long_press_s),
-                                                  clock);
+    return std::make_unique<hal::ScriptedButtons>(
+        read_button_script(what_of(name, "buttons", "script:FILE"), long_press_s), clock);
   }
   if (text == "none") {
     return std::make_unique<hal::ScriptedButtons>(std::vector<hal::ButtonEvent>{}, clock);

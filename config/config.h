@@ -20,7 +20,7 @@ struct Tracking {
   int fast_threshold = 10;               ///< grey levels
   double init_min_parallax_deg = 1.0;    ///< median parallax for a two-view map
   int init_min_inliers = 80;             ///< points in a two-view map
-  double search_radius_px = 10.0;        ///< at level 0, on the fine pass
+  double search_radius_px = 4.0;         ///< of the level searched, after the coarse pass
   double lost_inlier_share = 0.25;  ///< share of searched points found below which quality is bad
   int lost_after_frames = 5;        ///< bad frames in a row until the tracker is lost
   int local_keyframes = 8;          ///< keyframes in a local bundle adjustment

@@ -66,7 +66,7 @@ bool take(std::string& member, const Value& value, const Key& key) {
   if (text == nullptr) {
     return false;
   }
-  bool allowed = key.choices.empty();
+  bool allowed = key.choices.empty() && static_cast<double>(text->size()) >= key.min;
   for (const std::string_view choice : key.choices) {
     allowed = allowed || *text == choice;
   }
@@ -85,7 +85,7 @@ std::string range_of(const Key& key) {
       words << (words.tellp() == 0 ? "one of " : ", ") << choice;
     }
     if (key.choices.empty()) {
-      words << "any text";
+      words << (key.min > 0.0 ? "any text but an empty one" : "any text");
     }
   } else {
     words.precision(10);

@@ -17,7 +17,7 @@ struct Key {
   std::string_view name;
   std::variant<bool*, int*, double*, std::string*> member;
   std::string_view unit;
-  double min = 0.0;  ///< smallest and largest number allowed; unused by text
+  double min = 0.0;  ///< smallest and largest number allowed; of text, min 1 forbids none
   double max = 0.0;
   std::vector<std::string_view> choices;  ///< of text
   std::string_view origin;                ///< why the default is what it is

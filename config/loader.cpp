@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <iterator>
 
 #include "config/error.h"
+#include "config/input_file.h"
 #include "config/schema.h"
 #include "config/suggestion.h"
 
@@ -19,18 +19,6 @@ using Keys = std::vector<Key>;
 
 int line_of(const toml::source_region& source) {
   return static_cast<int>(source.begin.line);
-}
-
-std::string read_text(const fs::path& file) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(file, ignored)) {
-    throw InputError(file, "no such file");
-  }
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
-    throw InputError(file, "cannot be opened for reading");
-  }
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 toml::table parse(const fs::path& file) {

@@ -1,11 +1,9 @@
 #include "hal/image_io.h"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <string>
 
 #include "config/error.h"
+#include "config/input_file.h"
 #include "hal/image_codecs.h"
 
 namespace lumibox::hal {
@@ -15,29 +13,11 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t kMaxSide = 1 << 14;
 constexpr std::int64_t kMaxPixels = 1 << 26;
-constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 29;
 
 std::vector<std::uint8_t> read_file(const fs::path& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) {
-    throw config::InputError(path, "no such file; expected an image");
-  }
-  if (!fs::is_regular_file(status)) {
-    throw config::InputError(path, "not a file; expected an image");
-  }
-  const std::uintmax_t size = fs::file_size(path, error);
-  if (error || size > kMaxFileBytes) {
-    throw config::InputError(path, "too large for an image");
-  }
-  if (size == 0) {
+  std::vector<std::uint8_t> bytes = config::read_bytes(path);
+  if (bytes.empty()) {
     throw config::InputError(path, "empty file; expected an image");
-  }
-  std::vector<std::uint8_t> bytes(size);
-  std::ifstream file(path, std::ios::binary);
-  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  if (!file) {
-    throw config::InputError(path, std::string("cannot be read: ") + std::strerror(errno));
   }
   return bytes;
 }

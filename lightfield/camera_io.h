@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "geometry/camera.h"
@@ -12,9 +11,6 @@ namespace lumibox::lightfield {
 /// Pixel of the first pixel's centre in nerfstudio, instant-ngp and COLMAP, whose coordinates begin
 /// at the picture's corner; ours is 0.
 inline constexpr double kForeignPixelCentre = 0.5;
-
-/// What is wrong with the intrinsics, as the end of a sentence about them; empty if nothing is.
-std::string flaw(const config::CameraProfile& profile);
 
 /// True if size and lens are the same; rate and readout do not matter to a still picture.
 bool same_lens(const config::CameraProfile& a, const config::CameraProfile& b);

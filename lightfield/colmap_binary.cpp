@@ -1,8 +1,9 @@
 #include <array>
 
+#include "config/input_file.h"
+#include "geometry/position.h"
 #include "lightfield/byte_reader.h"
 #include "lightfield/colmap_parts.h"
-#include "lightfield/durable_files.h"
 
 namespace lumibox::lightfield {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::map<std::int64_t, config::CameraProfile> read_cameras(const fs::path& file) {
-  const std::vector<std::uint8_t> bytes = read_bytes(file);
+  const std::vector<std::uint8_t> bytes = config::read_bytes(file);
   ByteReader reader(bytes, file);
   std::map<std::int64_t, config::CameraProfile> cameras;
   const auto count = reader.read<std::uint64_t>();
@@ -26,14 +27,14 @@ std::map<std::int64_t, config::CameraProfile> read_cameras(const fs::path& file)
     std::string flaw;
     const config::CameraProfile profile = to_profile(*lens, width, height, parameters, &flaw);
     const std::string name = "camera " + std::to_string(id);
-    if (!flaw.empty()) reader.fail(name + " has " + flaw);
+    if (!flaw.empty()) reader.fail(name + ": " + flaw);
     if (!cameras.emplace(id, profile).second) reader.fail(name + " is there twice");
   }
   return cameras;
 }
 
 std::vector<ColmapImage> read_images(const fs::path& file) {
-  const std::vector<std::uint8_t> bytes = read_bytes(file);
+  const std::vector<std::uint8_t> bytes = config::read_bytes(file);
   ByteReader reader(bytes, file);
   std::vector<ColmapImage> images;
   const auto count = reader.read<std::uint64_t>();
@@ -55,7 +56,7 @@ std::vector<ColmapImage> read_images(const fs::path& file) {
 }
 
 std::vector<Eigen::Vector3d> read_points(const fs::path& file) {
-  const std::vector<std::uint8_t> bytes = read_bytes(file);
+  const std::vector<std::uint8_t> bytes = config::read_bytes(file);
   ByteReader reader(bytes, file);
   std::vector<Eigen::Vector3d> points;
   const auto count = reader.read<std::uint64_t>();
@@ -65,7 +66,9 @@ std::vector<Eigen::Vector3d> read_points(const fs::path& file) {
     const double y = reader.read<double>();
     const double z = reader.read<double>();
     points.emplace_back(x, y, z);
-    if (!points.back().allFinite()) reader.fail("a point that is not finite");
+    if (const auto fault = geometry::fault_of_position(points.back())) {
+      reader.fail("point " + std::to_string(i) + " has " + *fault);
+    }
     reader.skip(1, 3 + sizeof(double));  // colour, error
     constexpr std::size_t kTrackBytes = 2 * sizeof(std::int32_t);
     reader.skip(reader.read<std::uint64_t>(), kTrackBytes);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/position.h"
 #include "lightfield/camera_io.h"
 
 namespace lumibox::lightfield {
@@ -59,31 +60,27 @@ config::CameraProfile to_profile(const ColmapLens& lens, std::int64_t width, std
   std::size_t next = 0;
   c.fx = p[next++];
   c.fy = one_focal_length ? c.fx : p[next++];
-  c.cx = p[next++] - kForeignPixelCentre;
-  c.cy = p[next++] - kForeignPixelCentre;
+  c.cx = p[next++];
+  c.cy = p[next++];
   for (double* coefficient : {&c.k1, &c.k2, &c.p1, &c.p2, &c.k3}) {
     if (next < lens.parameters) *coefficient = p[next++];
   }
-  *flaw = lightfield::flaw(c);
+  *flaw = config::fault_of(c).value_or("");  // in the file's own numbers
+  c.cx -= kForeignPixelCentre;
+  c.cy -= kForeignPixelCentre;
   for (; next < lens.parameters; ++next) {
-    if (p[next] != 0.0) *flaw = "k4, k5 or k6 that is not zero, expected a polynomial distortion";
+    if (p[next] != 0.0) *flaw = "k4, k5 or k6 is not zero; expected a polynomial distortion";
   }
   return c;
 }
 
 geometry::Pose to_pose(std::span<const double, 7> v, std::string* flaw) {
-  const bool finite = std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
   const Eigen::Quaterniond q(v[0], v[1], v[2], v[3]);
+  const Eigen::Vector3d translation(v[4], v[5], v[6]);
+  *flaw = geometry::fault_of_position(translation).value_or("");
   // COLMAP normalises what it reads; a quaternion far from unit was not meant as one.
-  if (!finite) {
-    *flaw = "a pose that is not finite";
-  } else if (std::abs(q.norm() - 1.0) > 1e-2) {
-    *flaw = "a rotation that is not a unit quaternion";
-  } else {
-    flaw->clear();
-    return {q.normalized(), Eigen::Vector3d(v[4], v[5], v[6])};
-  }
-  return {};
+  if (!(std::abs(q.norm() - 1.0) <= 1e-2)) *flaw = "a rotation that is not a unit quaternion";
+  return flaw->empty() ? geometry::Pose(q.normalized(), translation) : geometry::Pose();
 }
 
 }  // namespace lumibox::lightfield

@@ -50,11 +50,11 @@ inline constexpr const char* kKnownLenses =
 /// Name of a model that find_lens() does not know, for an error message.
 std::string foreign_lens_name(int id);
 
-/// Our camera of a COLMAP one; sets `flaw` to what is wrong with it, or leaves it empty.
+/// Our camera of a COLMAP one; sets `flaw` to what is wrong with it, or to nothing.
 config::CameraProfile to_profile(const ColmapLens& lens, std::int64_t width, std::int64_t height,
                                  std::span<const double> parameters, std::string* flaw);
 
-/// Pose of an image; sets `flaw` likewise.
+/// Pose of an image; sets `flaw` likewise, as the object of "has".
 geometry::Pose to_pose(std::span<const double, 7> quaternion_wxyz_and_translation,
                        std::string* flaw);
 

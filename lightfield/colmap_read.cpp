@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 
 #include "config/error.h"
 #include "lightfield/camera_io.h"
@@ -49,6 +50,18 @@ fs::path find_pictures(const fs::path& folder, const fs::path& model,
   return best.lexically_normal();
 }
 
+/// Two poses of one picture contradict each other.
+void refuse_same_picture(const fs::path& file, const std::vector<ColmapImage>& images) {
+  std::map<fs::path, std::string> seen;
+  for (const ColmapImage& image : images) {
+    const auto [earlier, is_new] =
+        seen.emplace(fs::path(image.name).lexically_normal(), image.name);
+    if (is_new) continue;
+    throw config::InputError(file, "images \"" + printable(earlier->second) + "\" and \"" +
+                                       printable(image.name) + "\" are one picture");
+  }
+}
+
 }  // namespace
 
 ColmapModel read_colmap(const fs::path& folder) {
@@ -83,6 +96,7 @@ ColmapModel read_colmap(const fs::path& folder) {
     model.perspectives.push_back(std::move(perspective));
     names.push_back(image.name);
   }
+  refuse_same_picture(images_file, parts.images);
   model.pictures_folder = find_pictures(folder, place, names);
   require_pictures(images_file, model.pictures_folder, names);
   return model;

@@ -2,8 +2,9 @@
 #include <optional>
 
 #include "config/error.h"
+#include "config/input_file.h"
+#include "geometry/position.h"
 #include "lightfield/colmap_parts.h"
-#include "lightfield/durable_files.h"
 #include "lightfield/text_numbers.h"
 
 namespace lumibox::lightfield {
@@ -14,10 +15,7 @@ namespace fs = std::filesystem;
 /// A text file line by line; comments are left out, empty lines are not.
 class Lines {
  public:
-  explicit Lines(const fs::path& file) : file_(file) {
-    const std::vector<std::uint8_t> bytes = read_bytes(file);
-    text_.assign(bytes.begin(), bytes.end());
-  }
+  explicit Lines(const fs::path& file) : file_(file), text_(config::read_text(file)) {}
 
   /// Next line without its end, or none.
   std::optional<std::string_view> next() {
@@ -71,7 +69,7 @@ std::map<std::int64_t, config::CameraProfile> read_cameras(const fs::path& file)
     const config::CameraProfile profile =
         to_profile(*lens, lines.number<long long>(words[2]), lines.number<long long>(words[3]),
                    parameters, &flaw);
-    if (!flaw.empty()) lines.fail("the camera has " + flaw);
+    if (!flaw.empty()) lines.fail(flaw);
     if (!cameras.emplace(lines.number<long long>(words[0]), profile).second) {
       lines.fail("camera id " + printable(words[0]) + " twice");
     }
@@ -86,6 +84,7 @@ std::vector<ColmapImage> read_images(const fs::path& file) {
     const auto words = split_words(*line);
     if (words.empty()) continue;
     if (words.size() < 10) lines.fail("expected IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME");
+    lines.number<long long>(words[0]);  // the id: nothing here refers to it
     std::array<double, 7> numbers{};
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       numbers[i] = lines.number<double>(words[i + 1]);
@@ -112,6 +111,7 @@ std::vector<Eigen::Vector3d> read_points(const fs::path& file) {
     if (words.size() < 8) lines.fail("expected POINT3D_ID X Y Z R G B ERROR TRACK[]");
     points.emplace_back(lines.number<double>(words[1]), lines.number<double>(words[2]),
                         lines.number<double>(words[3]));
+    if (const auto fault = geometry::fault_of_position(points.back())) lines.fail(*fault);
   }
   return points;
 }

@@ -4,9 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <fstream>
 #include <system_error>
-#include <vector>
 
 #include "config/error.h"
 
@@ -103,22 +101,6 @@ void make_new_folder(const DurableFiles& files, const fs::path& folder) {
                                            : "is not empty; expected an empty or absent folder");
   }
   files.make_folder(folder);
-}
-
-std::vector<std::uint8_t> read_bytes(const fs::path& path) {
-  std::error_code error;
-  // Anything but a regular file may block or never end.
-  if (!fs::is_regular_file(path, error)) {
-    throw config::InputError(path,
-                             fs::exists(path, error) ? "is not a file" : "there is no such file");
-  }
-  const std::uintmax_t size = fs::file_size(path, error);
-  if (error) throw config::InputError(path, "cannot be read: " + error.message());
-  std::ifstream stream(path, std::ios::binary);
-  std::vector<std::uint8_t> bytes(size);
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  if (!stream) throw config::InputError(path, "cannot be read");
-  return bytes;
 }
 
 }  // namespace lumibox::lightfield

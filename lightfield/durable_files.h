@@ -6,7 +6,6 @@
 #include <span>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace lumibox::lightfield {
 
@@ -49,8 +48,5 @@ class DurableFiles {
 /// Makes `folder` for something new. Throws config::InputError if it exists and holds anything:
 /// nothing recorded is ever overwritten.
 void make_new_folder(const DurableFiles& files, const std::filesystem::path& folder);
-
-/// All bytes of a regular file. Throws config::InputError.
-std::vector<std::uint8_t> read_bytes(const std::filesystem::path& path);
 
 }  // namespace lumibox::lightfield

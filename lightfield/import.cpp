@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "config/error.h"
 #include "lightfield/capture.h"
 #include "lightfield/colmap.h"
@@ -49,9 +47,6 @@ Capture import_capture(const fs::path& path) {
     perspective.color = read_picture(source.folder / perspective.file, *perspective.camera);
   }
   if (!source.subject) source.subject = guess_subject(source.perspectives, source.points);
-  if (!source.subject->center.allFinite() || !std::isfinite(source.subject->radius)) {
-    throw config::InputError(path, "poses are too far apart to compute with");
-  }
   Capture capture;
   // "." because empty means that there are no originals.
   capture.folder = source.folder.empty() ? "." : source.folder;

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "config/error.h"
-#include "lightfield/durable_files.h"
+#include "config/input_file.h"
+#include "lightfield/text_numbers.h"
 
 namespace lumibox::lightfield {
 
@@ -74,7 +75,7 @@ void JsonValue::fail_type(const char* expected) const {
 }
 
 JsonFile::JsonFile(const std::filesystem::path& path) : path_(path) {
-  const std::vector<std::uint8_t> bytes = read_bytes(path);
+  const std::vector<std::uint8_t> bytes = config::read_bytes(path);
   try {
     json_ = nlohmann::json::parse(bytes);
   } catch (const nlohmann::json::parse_error& error) {
@@ -83,7 +84,7 @@ JsonFile::JsonFile(const std::filesystem::path& path) : path_(path) {
     const auto line = 1 + std::count(bytes.begin(), end, std::uint8_t{'\n'});
     throw config::InputError(path, static_cast<int>(line), "not valid JSON");
   } catch (const nlohmann::json::exception& error) {
-    throw config::InputError(path, std::string("not valid JSON: ") + error.what());
+    throw config::InputError(path, "not valid JSON: " + printable(error.what()));
   }
 }
 

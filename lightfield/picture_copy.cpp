@@ -1,5 +1,6 @@
 #include "lightfield/picture_copy.h"
 
+#include "config/input_file.h"
 #include "hal/image_io.h"
 #include "lightfield/transforms.h"
 
@@ -14,7 +15,7 @@ std::vector<Perspective> copy_pictures(const Capture& capture, const std::filesy
     const bool copy = !capture.folder.empty() && !original.empty();
     perspective.file = picture_file(perspective.id, copy ? original.extension().string() : ".jpg");
     files.write(folder / perspective.file,
-                copy ? read_bytes(capture.folder / original)
+                copy ? config::read_bytes(capture.folder / original)
                      : hal::encode_jpeg(*perspective.color, jpeg_quality));
   }
   return perspectives;

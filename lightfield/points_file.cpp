@@ -5,8 +5,9 @@
 #include <string>
 #include <string_view>
 
+#include "config/input_file.h"
+#include "geometry/position.h"
 #include "lightfield/byte_reader.h"
-#include "lightfield/durable_files.h"
 #include "lightfield/text_numbers.h"
 
 namespace lumibox::lightfield {
@@ -132,15 +133,15 @@ std::vector<std::uint8_t> encode_ply(const std::vector<Eigen::Vector3d>& points)
 }
 
 std::vector<Eigen::Vector3d> read_ply(const std::filesystem::path& path) {
-  const std::vector<std::uint8_t> bytes = read_bytes(path);
+  const std::vector<std::uint8_t> bytes = config::read_bytes(path);
   ByteReader reader(bytes, path);
   const Header header = read_header(reader);
   std::vector<Eigen::Vector3d> points;
   for (std::uint64_t i = 0; i < header.vertices; ++i) {
     points.push_back(header.binary ? read_binary_vertex(reader, header)
                                    : read_ascii_vertex(reader, header));
-    if (!points.back().allFinite()) {
-      reader.fail("vertex " + std::to_string(i) + " is not finite");
+    if (const auto fault = geometry::fault_of_position(points.back())) {
+      reader.fail("vertex " + std::to_string(i) + " has " + *fault);
     }
   }
   return points;

@@ -1,7 +1,9 @@
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "config/error.h"
+#include "geometry/position.h"
 #include "hal/image_io.h"
 #include "lightfield/camera_io.h"
 #include "lightfield/json_value.h"
@@ -58,34 +60,44 @@ config::CameraProfile read_lens(const JsonValue& frame, const JsonValue& top,
   const auto width = find(frame, top, "w");
   const auto height = find(frame, top, "h");
   if (width && height) {
-    c.width = static_cast<int>(width->integer(1, 65535));
-    c.height = static_cast<int>(height->integer(1, 65535));
+    constexpr long long kLargest = 1 << 30;  // refused below, but fits an int
+    c.width = static_cast<int>(width->integer(0, kLargest));
+    c.height = static_cast<int>(height->integer(0, kLargest));
   } else {
     const hal::ImageInfo info = hal::read_image_info(picture);
     c.width = info.width;
     c.height = info.height;
   }
-  const auto focal = [&](const char* length_key, const char* angle_key, int side) {
+  using Length = std::optional<double>;
+  const auto focal = [&](const char* length_key, const char* angle_key, int side) -> Length {
     if (const auto length = find(frame, top, length_key)) return length->number();
     if (const auto angle = find(frame, top, angle_key)) {
       return 0.5 * side / std::tan(0.5 * angle->number());
     }
-    return 0.0;
+    return std::nullopt;
   };
-  c.fx = focal("fl_x", "camera_angle_x", c.width);
-  c.fy = focal("fl_y", "camera_angle_y", c.height);
-  if (c.fx == 0.0 && c.fy == 0.0) frame.fail("has neither fl_x nor camera_angle_x");
-  if (c.fx == 0.0) c.fx = c.fy;
-  if (c.fy == 0.0) c.fy = c.fx;
-  c.cx = number("cx", 0.5 * c.width) - kForeignPixelCentre;
-  c.cy = number("cy", 0.5 * c.height) - kForeignPixelCentre;
+  const Length fx = focal("fl_x", "camera_angle_x", c.width);
+  const Length fy = focal("fl_y", "camera_angle_y", c.height);
+  if (!fx && !fy) frame.fail("has neither fl_x nor camera_angle_x");
+  c.fx = fx ? *fx : *fy;
+  c.fy = fy ? *fy : *fx;
+  c.cx = number("cx", 0.5 * c.width);
+  c.cy = number("cy", 0.5 * c.height);
   c.k1 = number("k1", 0.0);
   c.k2 = number("k2", 0.0);
   c.p1 = number("p1", 0.0);
   c.p2 = number("p2", 0.0);
   c.k3 = number("k3", 0.0);
-  if (const std::string wrong = flaw(c); !wrong.empty()) frame.fail("has " + wrong);
+  // Before the move of the principal point, so that the words have the file's own numbers.
+  if (const auto fault = config::fault_of(c)) frame.fail("has a camera whose " + *fault);
+  c.cx -= kForeignPixelCentre;
+  c.cy -= kForeignPixelCentre;
   return c;
+}
+
+Eigen::Vector3d checked_position(const Eigen::Vector3d& position, const JsonValue& value) {
+  if (const auto fault = geometry::fault_of_position(position)) value.fail("has " + *fault);
+  return position;
 }
 
 geometry::Pose read_matrix(const JsonValue& value, double tolerance) {
@@ -99,6 +111,7 @@ geometry::Pose read_matrix(const JsonValue& value, double tolerance) {
   }
   const auto pose = pose_from_opengl(matrix, tolerance);
   if (!pose) value.fail("is not a rotation and a translation, expected camera to world");
+  checked_position(pose->translation, value);
   return *pose;
 }
 
@@ -114,15 +127,18 @@ void read_own_keys(const JsonValue& own, Perspective* perspective) {
   if (std::abs(q.norm() - 1.0) > kOwnRotationTolerance) {
     pose.at("rotation_wxyz").fail("is not a unit quaternion");
   }
-  perspective->keyframe_from_camera = geometry::Pose(
-      Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized(), pose.at("translation").numbers(3));
+  perspective->keyframe_from_camera =
+      geometry::Pose(Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized(),
+                     checked_position(pose.at("translation").numbers(3), pose.at("translation")));
 }
 
 Sphere read_sphere(const JsonValue& subject) {
   Sphere sphere;
-  sphere.center = subject.at("center").numbers(3);
+  sphere.center = checked_position(subject.at("center").numbers(3), subject.at("center"));
   sphere.radius = subject.at("radius").number();
-  if (sphere.radius <= 0.0) subject.at("radius").fail("is not positive");
+  if (!(sphere.radius > 0.0 && sphere.radius <= geometry::kLargestCoordinate)) {
+    subject.at("radius").fail("is " + to_text(sphere.radius) + ", expected more than 0, up to 1e9");
+  }
   return sphere;
 }
 
@@ -149,9 +165,16 @@ std::vector<std::string> read_picture_names(const std::vector<JsonValue>& frames
                                             const fs::path& file, Dialect dialect) {
   const fs::path folder = file.parent_path();
   std::vector<std::string> names;
+  std::map<fs::path, std::size_t> frame_of;
   for (const JsonValue& frame : frames) {
-    names.push_back(read_path(frame.at("file_path")));
+    const JsonValue path = frame.at("file_path");
+    names.push_back(read_path(path));
     if (dialect == Dialect::Foreign) names.back() = with_extension(folder, names.back());
+    const fs::path picture = fs::path(names.back()).lexically_normal();
+    const auto [earlier, is_new] = frame_of.emplace(picture, frame_of.size());
+    if (is_new) continue;
+    path.fail("names " + printable(picture.string()) + ", as does frames[" +
+              std::to_string(earlier->second) + "].file_path; expected a picture for each frame");
   }
   require_pictures(file, folder, names);
   return names;

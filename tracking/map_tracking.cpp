@@ -33,9 +33,8 @@ std::optional<Localisation> localise(const geometry::Camera& camera,
   if (!coarse) coarse = coarse_pose(camera, map, frame, predicted, kWideRadius);
   if (!coarse) return std::nullopt;
 
-  const double radius = std::max(2.0, 0.4 * options.search_radius_px);
-  SearchResult found =
-      search_map(camera, map, frame, *coarse, {0, radius, options.max_measurements});
+  SearchResult found = search_map(camera, map, frame, *coarse,
+                                  {0, options.search_radius_px, options.max_measurements});
   const PoseEstimate estimate = estimate_pose(camera, found.measurements, *coarse, kIterations);
   return Localisation{estimate.pose, std::move(found.attempted), std::move(found.measurements),
                       estimate.inliers};

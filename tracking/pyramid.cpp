@@ -22,7 +22,9 @@ hal::Image halve(const hal::Image& source) {
 Pyramid::Pyramid(const hal::Image& gray, int levels) {
   images_.reserve(static_cast<std::size_t>(levels));
   images_.push_back(gray);
-  for (int i = 1; i < levels; ++i) images_.push_back(halve(images_.back()));
+  while (this->levels() < levels && images_.back().width() > 1 && images_.back().height() > 1) {
+    images_.push_back(halve(images_.back()));
+  }
 }
 
 }  // namespace lumibox::tracking

@@ -7,7 +7,8 @@
 
 namespace lumibox::tracking {
 
-/// A grey picture and its halvings, each the mean of 2x2 pixels of the one below.
+/// A grey picture and its halvings, each the mean of 2x2 pixels of the one below: `levels` in all,
+/// or as many as leave a pixel.
 /// geometry::Camera::at_level() is the camera of a level.
 class Pyramid {
  public:

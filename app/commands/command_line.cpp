@@ -2,10 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/commands/commands.h"
 #include "render/view.h"
@@ -19,6 +22,11 @@ std::string must_be_finite(const std::string& text) {
   return std::isfinite(std::strtod(text.c_str(), nullptr))
              ? ""
              : "found " + text + "; expected a number";
+}
+
+/// A path of no letters would be the folder that the program happens to run in.
+std::string must_not_be_empty(const std::string& text) {
+  return text.empty() ? "found nothing; expected a word" : "";
 }
 
 /// A subcommand with the options that all have, and an example in its help.
@@ -99,7 +107,9 @@ void add_track(CLI::App& app) {
   command->add_option("--live", options->live, "trajectory as known when each frame was shown")
       ->type_name("LIVE.tum");
   command->add_option("--json", options->json, "statistics")->type_name("STATS");
-  command->add_option("--seed", options->seed, "of the random sampling")->type_name("N");
+  command->add_option("--seed", options->seed, "of the random sampling")
+      ->check(CLI::Range(std::uint32_t{0}, std::numeric_limits<std::uint32_t>::max()))
+      ->type_name("N");
   command->add_option("--calib", options->calibration, "calibration in place of the sequence's own")
       ->type_name("CALIB.txt");
   command->add_flag("--realtime", options->realtime,
@@ -139,9 +149,11 @@ void add_render(CLI::App& app) {
       ->check(CLI::Range(0.0, 100.0))
       ->check(must_be_finite)
       ->type_name("X");
-  command->add_option("--geometry", options->geometry, "what the pictures are projected onto")
-      ->check(CLI::IsMember({"plane", "focal", "mesh"}))
-      ->capture_default_str();
+  command
+      ->add_option_function<std::string>(
+          "--geometry", [](const std::string&) {}, "what the pictures are projected onto")
+      ->check(CLI::IsMember({"plane"}))
+      ->default_str("plane");
   command
       ->add_option("--calib", options->calibration,
                    "intrinsics of the views (default: the capture's, undistorted)")
@@ -181,7 +193,7 @@ void add_export(CLI::App& app) {
       "lumibox export walk_capture/ --format colmap --out walk_colmap/", options, export_data_set);
   add_capture(command, options->capture);
   command->add_option("--format", options->format, "layout")
-      ->check(CLI::IsMember({"nerfstudio", "colmap", "llff", "web"}))
+      ->check(CLI::IsMember({"nerfstudio", "colmap"}))
       ->required();
   command->add_option("--out", options->out, "folder to be made")->type_name("PATH")->required();
 }
@@ -197,12 +209,28 @@ void add_sim(CLI::App& app) {
       ->required();
 }
 
+/// CLI11 says of an unknown command only that one is required.
+std::string failure_message(const CLI::App* app, const CLI::Error& error) {
+  if (!app->get_subcommands().empty() || error.get_name() != "RequiredError") {
+    return CLI::FailureMessage::simple(app, error);
+  }
+  const std::vector<std::string> words = app->remaining();
+  std::string message = words.empty() ? "no command" : "no command '" + words.front() + "'";
+  const char* separator = "; expected ";
+  for (const CLI::App* command : app->get_subcommands({})) {
+    message += separator + command->get_name();
+    separator = ", ";
+  }
+  return message + "\nRun with --help for more information.\n";
+}
+
 }  // namespace
 
 int run_command_line(int argc, char** argv) {
   CLI::App app("Lumibox: walk around something, and a light field of it is on the screen.",
                "lumibox");
   app.require_subcommand(1);
+  app.failure_message(failure_message);
   app.set_version_flag("--version", LUMIBOX_VERSION);
   app.footer("`lumibox COMMAND --help` explains each command with an example.");
   add_run(app);
@@ -213,6 +241,9 @@ int run_command_line(int argc, char** argv) {
   add_import(app);
   add_export(app);
   add_sim(app);
+  for (CLI::App* command : app.get_subcommands({})) {
+    for (CLI::Option* option : command->get_options()) option->check(must_not_be_empty);
+  }
   try {
     app.parse(argc, argv);  // runs the command named
     return 0;

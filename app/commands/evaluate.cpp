@@ -55,9 +55,14 @@ void print_table(const std::vector<render::MethodQuality>& methods) {
 
 void evaluate(const EvaluateOptions& options) {
   const config::Config config = load_config(options.sources);
+  for (const auto& result : {options.json, options.pictures}) {
+    if (result) {
+      refuse_recorded(*result, options.capture);
+    }
+  }
   const lightfield::Capture capture = lightfield::load_capture(options.capture);
   const auto& perspectives = capture.light_field.perspectives();
-  if (perspectives.size() < 2 || !capture.light_field.subject()) {
+  if (perspectives.size() < 2) {
     throw config::InputError(options.capture, "holds fewer than the two perspectives needed");
   }
   if (options.pictures) {
@@ -78,8 +83,8 @@ void evaluate(const EvaluateOptions& options) {
   std::vector<render::MethodQuality> methods;
   {
     Progress progress("evaluating", static_cast<std::int64_t>(perspectives.size()));
-    methods = render::leave_one_out(perspectives, *capture.light_field.subject(), config.render,
-                                    render_view, [&](std::size_t view) {
+    methods = render::leave_one_out(perspectives, subject_of(capture), config.render, render_view,
+                                    [&](std::size_t view) {
                                       current = view;
                                       progress.show(static_cast<std::int64_t>(view));
                                     });

@@ -27,16 +27,18 @@ render::Settings settings_of(const RenderOptions& options, const lightfield::Sph
 }  // namespace
 
 void render_views(const RenderOptions& options) {
-  if (options.geometry != "plane") {
-    throw config::InputError("--geometry " + options.geometry + ": not available yet: plane");
-  }
+  refuse_recorded(options.out, options.capture);
   const lightfield::Capture capture = lightfield::load_capture(options.capture);
   const auto& perspectives = capture.light_field.perspectives();
-  if (perspectives.empty() || !capture.light_field.subject()) {
+  if (perspectives.empty()) {
     throw config::InputError(options.capture, "holds no perspectives to render from");
   }
-  const render::Settings settings = settings_of(options, *capture.light_field.subject());
+  const render::Settings settings = settings_of(options, subject_of(capture));
   const auto views = hal::read_tum_trajectory(options.views);
+  if (views.empty()) {
+    throw config::InputError(options.views,
+                             "holds no poses; expected lines `t tx ty tz qx qy qz qw`");
+  }
   const geometry::Camera camera =
       options.calibration ? geometry::Camera(hal::read_calibration(*options.calibration))
                           : *perspectives.front().camera;

@@ -18,8 +18,8 @@ void ask_to_stop(int) {
 
 void run(const RunOptions& options) {
   const config::Config config = load_config(options.sources);
-  make_folder(config.capture.folder);
   Devices devices = open_devices(config);
+  make_folder(config.capture.folder);
   Loop loop(devices, config, config.capture.folder, devices.lockstep ? kLockstep : kThreaded);
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);

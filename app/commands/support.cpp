@@ -5,6 +5,7 @@
 
 #include "config/error.h"
 #include "config/log.h"
+#include "lightfield/transforms.h"
 
 namespace lumibox::app {
 
@@ -16,9 +17,36 @@ config::Config load_config(const config::Sources& sources) {
 
 void refuse_used_folder(const std::filesystem::path& folder) {
   std::error_code error;
-  if (std::filesystem::exists(folder, error) && !std::filesystem::is_empty(folder, error)) {
+  if (!std::filesystem::exists(folder, error)) {
+    return;
+  }
+  if (!std::filesystem::is_directory(folder, error)) {
+    throw config::InputError(folder, "is a file; expected an empty or absent folder");
+  }
+  if (!std::filesystem::is_empty(folder, error)) {
     throw config::InputError(folder, "is not empty; nothing recorded is ever overwritten");
   }
+}
+
+void refuse_recorded(const std::filesystem::path& result, const std::filesystem::path& capture) {
+  std::error_code error;
+  const std::filesystem::path target = std::filesystem::weakly_canonical(result, error);
+  const std::filesystem::path folder = std::filesystem::weakly_canonical(capture, error);
+  for (const char* recorded :
+       {lightfield::kTransformsFile, lightfield::kPointsFile, lightfield::kImagesFolder}) {
+    if (target == folder / recorded) {
+      throw config::InputError(result,
+                               "belongs to the capture; nothing recorded is ever overwritten");
+    }
+  }
+}
+
+const lightfield::Sphere& subject_of(const lightfield::Capture& capture) {
+  if (!capture.light_field.subject()) {
+    throw config::InputError(capture.folder / lightfield::kTransformsFile,
+                             "names no subject; expected lumibox.subject");
+  }
+  return *capture.light_field.subject();
 }
 
 void write_json(const std::filesystem::path& file, const nlohmann::json& json) {

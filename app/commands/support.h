@@ -5,6 +5,7 @@
 
 #include "config/config.h"
 #include "config/loader.h"
+#include "lightfield/capture.h"
 
 namespace lumibox::app {
 
@@ -19,6 +20,12 @@ void make_parent_folder(const std::filesystem::path& file);
 
 /// Throws config::InputError if the folder holds something already.
 void refuse_used_folder(const std::filesystem::path& folder);
+
+/// Throws config::InputError if `result`, a file or folder to be written, is a part of the capture.
+void refuse_recorded(const std::filesystem::path& result, const std::filesystem::path& capture);
+
+/// The capture's subject; throws config::InputError if it has none.
+const lightfield::Sphere& subject_of(const lightfield::Capture& capture);
 
 /// Makes a folder for results; throws config::InputError if it cannot be made.
 void make_folder(const std::filesystem::path& folder);

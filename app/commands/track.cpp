@@ -150,6 +150,11 @@ void track(const TrackOptions& options) {
     throw config::InputError("--subject: the pixel lies outside the pictures of " +
                              std::to_string(model.width()) + "x" + std::to_string(model.height()));
   }
+  const auto frames = static_cast<std::int64_t>(sequence.entries.size());
+  if (options.subject && options.subject->frame >= frames) {
+    throw config::InputError("--subject: frame " + std::to_string(options.subject->frame) +
+                             "; the recording has " + std::to_string(frames) + ", from 0");
+  }
   hal::SystemClock clock;
   hal::ReplayCamera camera(sequence, clock,
                            options.realtime ? hal::Pacing::Recorded : hal::Pacing::Lockstep);
@@ -166,8 +171,7 @@ void track(const TrackOptions& options) {
   Result result;
   std::exception_ptr broken_off;  // a picture that cannot be read: what came before it is kept
   try {
-    play(sight, camera, clock, capture ? &*capture : nullptr,
-         static_cast<std::int64_t>(sequence.entries.size()), result);
+    play(sight, camera, clock, capture ? &*capture : nullptr, frames, result);
   } catch (const config::InputError&) {
     broken_off = std::current_exception();
   }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
+
+#include "config/input_file.h"
 
 namespace lumibox::hal {
 namespace {
@@ -20,22 +20,6 @@ std::string_view trimmed(std::string_view text) {
     return {};
   }
   return text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
-}
-
-std::string read_text(const fs::path& file) {
-  std::error_code ignored;
-  const fs::file_status status = fs::status(file, ignored);
-  if (!fs::exists(status)) {
-    throw InputError(file, "no such file");
-  }
-  if (!fs::is_regular_file(status)) {
-    throw InputError(file, "not a file");
-  }
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
-    throw InputError(file, "cannot be opened for reading");
-  }
-  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 }  // namespace
@@ -89,7 +73,7 @@ InputError TextLine::error(const std::string& message) const {
   return {*file_, line_, message};
 }
 
-TextFile::TextFile(const fs::path& file) : file_(file), text_(read_text(file)) {
+TextFile::TextFile(const fs::path& file) : file_(file), text_(config::read_text(file)) {
   int line = 1;
   for (std::string_view rest = text_; !rest.empty(); ++line) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "config/error.h"
+#include "geometry/position.h"
 #include "hal/replay/text_file.h"
 
 namespace lumibox::hal {
@@ -37,11 +38,18 @@ void check_after(double seconds, std::optional<double> previous_seconds, const T
   }
 }
 
+Eigen::Vector3d read_position(const TextLine& line, std::size_t first_column) {
+  const Eigen::Vector3d position(line.number(first_column), line.number(first_column + 1),
+                                 line.number(first_column + 2));
+  if (const auto fault = geometry::fault_of_position(position)) throw line.error(*fault);
+  return position;
+}
+
 StampedPose read_pose(const TextLine& line) {
   line.expect_count(8, 8, "t tx ty tz qx qy qz qw");
   StampedPose pose;
   pose.timestamp_s = read_time(line, 0);
-  pose.world_from_camera.translation = {line.number(1), line.number(2), line.number(3)};
+  pose.world_from_camera.translation = read_position(line, 1);
   const Eigen::Quaterniond rotation(line.number(7), line.number(4), line.number(5), line.number(6));
   // Rounded to a few digits in files; anything farther from unit length is not a quaternion.
   constexpr double kTolerance = 0.05;
@@ -130,10 +138,10 @@ Sequence::Subject read_subject(const fs::path& file) {
   const TextLine& line = text.lines().front();
   line.expect_count(4, 4, "x y z radius");
   const double radius = line.number(3);
-  if (radius <= 0.0) {
-    throw line.error("radius of " + line.quoted(3) + "; expected more than 0");
+  if (!(radius > 0.0 && radius <= geometry::kLargestCoordinate)) {
+    throw line.error("radius of " + line.quoted(3) + "; expected more than 0, up to 1e9");
   }
-  return {{line.number(0), line.number(1), line.number(2)}, radius};
+  return {read_position(line, 0), radius};
 }
 
 void write_tum_trajectory(const fs::path& file, const std::vector<StampedPose>& trajectory) {

@@ -1,6 +1,8 @@
 #include "hal/replay/video_reader.h"
 
+#include <cstdlib>
 #include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 #include <vector>
@@ -12,7 +14,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What is wrong with a video is said once, by us: ffmpeg and OpenCV have their own words for it,
+/// on stderr. Their log can still be had by setting the variable.
+void silence_libraries() {
+  static const int silenced = [] {
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    return setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // AV_LOG_QUIET; read at the first video
+  }();
+  static_cast<void>(silenced);
+}
+
 cv::VideoCapture open(const fs::path& file, const std::vector<int>& parameters) {
+  silence_libraries();
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) {
     throw config::InputError(file, "no such file; expected a video");

@@ -1,6 +1,5 @@
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -8,6 +7,7 @@
 #include <tuple>
 
 #include "config/error.h"
+#include "config/input_file.h"
 #include "hal/sim/mesh.h"
 
 namespace lumibox::hal::sim {
@@ -19,8 +19,7 @@ class ObjReader {
   explicit ObjReader(const std::filesystem::path& file) : file_(file) {}
 
   Mesh read() {
-    std::ifstream stream(file_);
-    if (!stream) throw config::InputError(file_, "cannot be opened; expected an OBJ mesh");
+    std::istringstream stream(config::read_text(file_));
     std::string text;
     while (std::getline(stream, text)) {
       ++line_;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "config/error.h"
+#include "config/input_file.h"
 #include "geometry/rotation.h"
 #include "hal/sim/checked_table.h"
 #include "hal/sim/effects_file.h"
@@ -231,12 +232,10 @@ CheckedTable required(CheckedTable& root, std::string_view key) {
 
 toml::table parse(const std::filesystem::path& file) {
   try {
-    return toml::parse_file(file.string());
+    return toml::parse(config::read_text(file), file.string());
   } catch (const toml::parse_error& error) {
-    const int line = static_cast<int>(error.source().begin.line);
-    const std::string what(error.description());
-    if (line < 1) throw config::InputError(file, what + "; expected a scene file (TOML)");
-    throw config::InputError(file, line, what);
+    throw config::InputError(file, static_cast<int>(error.source().begin.line),
+                             std::string(error.description()));
   }
 }
 

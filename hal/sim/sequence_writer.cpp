@@ -33,12 +33,17 @@ void refuse_occupied(const fs::path& folder) {
   }
 }
 
-/// A text file whose every line must reach the disk.
+/// A text file that holds whole lines at every instant, whoever stops the program.
 class TextFile {
  public:
   explicit TextFile(fs::path path) : path_(std::move(path)), stream_(path_) { check(); }
 
   std::ostream& line() { return stream_; }
+
+  void end_line() {
+    stream_ << '\n' << std::flush;
+    check();
+  }
 
   void close() {
     stream_.close();
@@ -82,7 +87,7 @@ void write_pose(std::ostream& out, const geometry::Pose& world_from_camera) {
   const Eigen::Vector3d& t = world_from_camera.translation;
   const Eigen::Quaterniond q = geometry::canonical(world_from_camera.rotation);
   out << std::setprecision(12) << ' ' << t.x() << ' ' << t.y() << ' ' << t.z() << ' ' << q.x()
-      << ' ' << q.y() << ' ' << q.z() << ' ' << q.w() << '\n';
+      << ' ' << q.y() << ' ' << q.z() << ' ' << q.w();
 }
 
 /// Seconds with all nine digits, exactly.
@@ -113,10 +118,13 @@ void write_sequence(const Scene& scene, const fs::path& folder,
     if (!sim::is_dropped(scene.impl().spec.effects, frame)) {
       const std::string stamp = seconds(scene.timestamp_ns(frame));
       write_png(folder / image_name(frame), renderer.render(frame, false, cost));
-      list.line() << stamp << ' ' << image_name(frame) << '\n';
       truth.line() << stamp;
       write_pose(truth.line(),
                  scene.world_from_camera(static_cast<double>(scene.timestamp_ns(frame)) * 1e-9));
+      truth.end_line();
+      // Last, since a picture that is listed must be whole.
+      list.line() << stamp << ' ' << image_name(frame);
+      list.end_line();
     }
     if (progress) progress(frame + 1, total);
   }

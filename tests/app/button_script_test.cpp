@@ -50,11 +50,23 @@ INSTANTIATE_TEST_SUITE_P(
                       BadScript{"1 main long long\n", ":1: found"},
                       BadScript{"nan main\n", ":1: found"}, BadScript{"-1 main\n", ":1: found"},
                       BadScript{"1\n", ":1: found"},
-                      BadScript{"2 main\n1 main\n", ":2: the time goes back"}));
+                      BadScript{"2 main\n1 main\n", ":2: the time goes back"},
+                      BadScript{"1 main\n1 plus\n1.1 main\n", ":3: main is still held"},
+                      BadScript{"1 main long\n\n1.5 main\n", ":3: main is still held"},
+                      BadScript{"1 main\n1 main\n", ":2: main is still held"}));
 
-TEST(ButtonScript, NamesAMissingFile) {
+TEST(ButtonScript, TwoButtonsMayBeHeldAtOnce) {
+  const testing::TempDir dir;
+  EXPECT_EQ(read_button_script(dir.write("a.txt", "1 main long\n1.1 plus\n2 main\n"), 0.6).size(),
+            6U);
+}
+
+TEST(ButtonScript, NamesAMissingFileAndAFolder) {
+  const testing::TempDir dir;
   EXPECT_THAT(testing::message_of([] { read_button_script("/nowhere/presses.txt", 0.6); }),
-              HasSubstr("/nowhere/presses.txt: cannot be opened"));
+              HasSubstr("/nowhere/presses.txt: no such file"));
+  EXPECT_THAT(testing::message_of([&] { read_button_script(dir.path(), 0.6); }),
+              HasSubstr(dir.path().string() + ": a folder, not a file"));
 }
 
 }  // namespace

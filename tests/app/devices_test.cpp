@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "support/input_error.h"
+#include "support/recording.h"
 
 namespace lumibox::app {
 namespace {
@@ -21,9 +22,22 @@ TEST(Devices, KindsThatThisBuildDoesNotHaveAreNamedWithThoseItHas) {
   EXPECT_THAT(complaint(config), AllOf(HasSubstr("devices.camera"), HasSubstr("v4l2:/dev/video0"),
                                        HasSubstr("not in this build"), HasSubstr("replay:")));
   config.devices.camera = "";
-  EXPECT_THAT(complaint(config), HasSubstr("devices.camera"));
+  EXPECT_THAT(complaint(config),
+              AllOf(HasSubstr("devices.camera is not set"), HasSubstr("sim:SCENE.toml")));
   config.devices.clock = "sundial";
   EXPECT_THAT(complaint(config), AllOf(HasSubstr("devices.clock"), HasSubstr("sundial")));
+}
+
+TEST(Devices, KindsWithoutANameAreRefused) {
+  config::Config config;
+  for (const char* camera : {"sim", "sim:", "replay", "replay:"}) {
+    config.devices.camera = camera;
+    EXPECT_THAT(complaint(config), HasSubstr("without a name; expected")) << camera;
+  }
+  const testing::Recording recording;
+  config.devices.camera = "replay:" + recording.folder().string();
+  config.devices.buttons = "script:";
+  EXPECT_THAT(complaint(config), HasSubstr("devices.buttons: \"script\" without a name"));
 }
 
 TEST(Devices, MissingFilesAreNamed) {

@@ -110,7 +110,8 @@ TEST_F(ConfigFile, SyntaxErrorNamesItsLine) {
 }
 
 TEST_F(ConfigFile, MessageIsOneLine) {
-  for (const char* text : {"[render]\nk = 40\nk = 50\n", "[render\n", "[log]\nlevel=\"a\\nb\"\n", "\"a\\nb\"=1\n"}) {
+  for (const char* text :
+       {"[render]\nk = 40\nk = 50\n", "[render\n", "[log]\nlevel=\"a\\nb\"\n", "\"a\\nb\"=1\n"}) {
     EXPECT_THAT(complaint_about(text), AllOf(Not(""), Not(HasSubstr("\n")))) << text;
   }
 }
@@ -122,7 +123,15 @@ TEST_F(ConfigFile, NamedFileMustExist) {
 
 TEST_F(ConfigFile, FolderInPlaceOfAFileIsRefused) {
   const auto loading = [&] { load({.file = folder_.path()}); };
-  EXPECT_THAT(testing::message_of(loading), StartsWith(folder_.path().string()));
+  EXPECT_THAT(testing::message_of(loading),
+              StartsWith(folder_.path().string() + ": a folder, not a file"));
+}
+
+TEST_F(ConfigFile, FolderForCapturesNeedsAName) {
+  EXPECT_THAT(complaint_about("[capture]\nfolder = ''\n"),
+              AllOf(StartsWith(at_line(2)),
+                    HasSubstr("capture.folder = \"\"; expected any text but an empty one")));
+  EXPECT_EQ(load_text("[devices]\ncamera = ''\n").devices.camera, "");
 }
 
 TEST_F(ConfigFile, ThresholdsThatContradictEachOtherAreRefused) {

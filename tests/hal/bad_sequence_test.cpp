@@ -230,6 +230,21 @@ TEST_F(BadSequence, SubjectWithoutARadius) {
   }
 }
 
+TEST_F(BadSequence, PositionsThatNobodyCanComputeWith) {
+  replace("subject.txt", "0 -1e300 0 1\n");
+  EXPECT_THAT(complaint(), HasSubstr("subject.txt:1: a coordinate of -1e+300; expected -1e+09 to"));
+  replace("subject.txt", "0 0 0 1e300\n");
+  EXPECT_THAT(complaint(), AllOf(HasSubstr("subject.txt:1: radius"), HasSubstr("up to 1e9")));
+  replace("subject.txt", "0 0 0 1\n");
+  replace_line("groundtruth.txt", 3, "5.1 0 0 1e308 0 0 0 1");
+  EXPECT_THAT(complaint(), HasSubstr("groundtruth.txt:3: a coordinate of 1e+308; expected"));
+}
+
+TEST_F(BadSequence, FileTooLargeToRead) {
+  fs::resize_file(recording_.folder() / "rgb.txt", std::uintmax_t{1} << 40U);
+  EXPECT_THAT(complaint(), HasSubstr("rgb.txt: 1099511627776 bytes; expected at most"));
+}
+
 TEST_F(BadSequence, BinaryInPlaceOfText) {
   for (const char* file : {"rgb.txt", "calib.txt", "groundtruth.txt", "subject.txt"}) {
     const std::string before = testing::read_text(recording_.folder() / file);

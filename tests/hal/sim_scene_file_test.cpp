@@ -63,9 +63,20 @@ INSTANTIATE_TEST_SUITE_P(
                 "no object \"me\""}),
     [](const auto& test) { return test.param.name; });
 
-TEST(SimSceneFile, MissingFileIsNamed) {
+TEST(SimSceneFile, WhatIsNoFileIsNamed) {
   EXPECT_THAT(message_of([] { load_scene("no/such/scene.toml"); }),
-              HasSubstr("no/such/scene.toml"));
+              HasSubstr("no/such/scene.toml: no such file"));
+  EXPECT_THAT(message_of([] { load_scene("/tmp"); }), HasSubstr("/tmp: a folder, not a file"));
+  EXPECT_THAT(message_of([] { load_scene("/dev/zero"); }), HasSubstr("/dev/zero: not a file"));
+}
+
+// Such a device never ends.
+TEST(SimSceneFile, MeshMustBeAFile) {
+  EXPECT_THAT(message_of([] {
+                testing::scene_of(testing::wall_scene(
+                    "[[objects]]\nname = \"m\"\nshape = \"mesh\"\nfile = \"/dev/full\"\n"));
+              }),
+              HasSubstr("/dev/full: not a file"));
 }
 
 TEST(SimSceneFile, MeshIsReadAndItsMistakesHaveALine) {

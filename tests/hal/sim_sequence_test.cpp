@@ -44,6 +44,17 @@ TEST(SimSequence, ReadsBackAsItWasWalked) {
   EXPECT_EQ(read_image(sequence.entries[7].image), testing::frame_alone(scene, 7));
 }
 
+// Whoever kills a long simulation has the part that was done.
+TEST(SimSequence, IsWholeAfterEveryPicture) {
+  const auto scene = scene_of(wall_scene());
+  const TempDir folder;
+  write_sequence(*scene, folder / "seq", [&](std::int64_t frame, std::int64_t) {
+    const Sequence so_far = open_sequence(folder / "seq");
+    EXPECT_EQ(so_far.entries.size(), static_cast<std::size_t>(frame));
+    EXPECT_EQ(so_far.ground_truth.size(), static_cast<std::size_t>(frame));
+  });
+}
+
 TEST(SimSequence, OccupiedFolderIsRefused) {
   const auto scene = scene_of(wall_scene());
   const TempDir folder;

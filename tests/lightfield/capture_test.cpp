@@ -44,7 +44,7 @@ TEST_F(BadCapture, NoFolder) {
 
 TEST_F(BadCapture, NoTransforms) {
   fs::remove(transforms_);
-  EXPECT_THAT(load(), HasSubstr("transforms.json: there is no such file"));
+  EXPECT_THAT(load(), HasSubstr("transforms.json: no such file"));
 }
 
 TEST_F(BadCapture, SyntaxErrorNamesItsLine) {
@@ -108,10 +108,13 @@ TEST_F(BadCapture, NumberTooLarge) {
   text.replace(text.find("\"fl_x\": ") + 8, 1, "1e999");
   write_text(transforms_, text);
   EXPECT_THAT(load(), HasSubstr("transforms.json"));
+  text.replace(text.find("1e999"), 5, std::string(100000, '9'));
+  write_text(transforms_, text);
+  EXPECT_LT(load().size(), 300U);
 }
 
 TEST_F(BadCapture, ZeroFocalLength) {
-  EXPECT_THAT(load_with([](json& j) { j["fl_x"] = -1.0; }), HasSubstr("focal length"));
+  EXPECT_THAT(load_with([](json& j) { j["fl_x"] = -1.0; }), HasSubstr("fx is -1; expected"));
 }
 
 TEST_F(BadCapture, MissingPicturesAreListed) {
@@ -138,7 +141,7 @@ TEST_F(BadCapture, PathThatLeavesTheFolder) {
   const fs::path outside = folder_ / "outside.jpg";
   fs::copy_file(folder_ / "c/images/000000.jpg", outside);
   for (const std::string& path : {std::string("../outside.jpg"), outside.string(),
-                                 std::string("images/../../outside.jpg"), std::string()}) {
+                                  std::string("images/../../outside.jpg"), std::string()}) {
     EXPECT_THAT(load_with([&](json& j) { j["frames"][0]["file_path"] = path; }),
                 HasSubstr("expected a path inside the folder"));
   }
@@ -156,7 +159,7 @@ TEST_F(BadCapture, SameIdTwice) {
 
 TEST_F(BadCapture, SphereWithoutSize) {
   EXPECT_THAT(load_with([](json& j) { j["lumibox"]["subject"]["radius"] = 0; }),
-              HasSubstr("lumibox.subject.radius is not positive"));
+              HasSubstr("lumibox.subject.radius is "));
 }
 
 TEST_F(BadCapture, DamagedPoints) {

@@ -149,8 +149,11 @@ TEST(ImportColmap, RefusesWithFileLineAndReason) {
   EXPECT_THAT(error("PINHOLE 16 12 20 21 8"), HasSubstr("3 parameters, PINHOLE has 4"));
   EXPECT_THAT(error("PINHOLE 16 12 20 21 8 x"), HasSubstr("not a number: x"));
   EXPECT_THAT(error("PINHOLE 16 12 20 nan 8 6"), HasSubstr("not a number: nan"));
-  EXPECT_THAT(error("PINHOLE 16 12 0 21 8 6"), HasSubstr("focal length"));
-  EXPECT_THAT(error("PINHOLE 16 99999999999 1 1 8 6"), HasSubstr("image size"));
+  EXPECT_THAT(error("PINHOLE 16 12 0 21 8 6"),
+              HasSubstr("cameras.txt:2: fx is 0; expected 0.16 to 1600"));
+  EXPECT_THAT(error("PINHOLE 16 12 1e-200 21 8 6"), HasSubstr("fx is 1e-200; expected"));
+  EXPECT_THAT(error("OPENCV 16 12 20 21 8 6 1e300 0 0 0"), HasSubstr("k1 is 1e+300; expected"));
+  EXPECT_THAT(error("PINHOLE 16 99999999999 1 1 8 6"), HasSubstr("height is"));
   EXPECT_THAT(error("PINHOLE 17 12 20 21 8 6"), HasSubstr("its camera says 17x12"));
 }
 
@@ -167,7 +170,21 @@ TEST(ImportColmap, RefusesBadImages) {
   EXPECT_THAT(error("1 1 0 0 0 0 0 5 7\n"), HasSubstr("images.txt:1: expected IMAGE_ID"));
   EXPECT_THAT(error("1 1 0 0 0 0 0 5 7 none.jpg\n"), HasSubstr("1 of 1 pictures are missing"));
   EXPECT_THAT(error("1 1 0 0 0 0 0 5 7 ../a.jpg\n"), HasSubstr("inside the folder"));
+  EXPECT_THAT(error("1 1 0 0 0 0 0 1e308 7 a.jpg\n"),
+              HasSubstr("images.txt:1: the image has a coordinate of 1e+308; expected -1e+09 to"));
+  EXPECT_THAT(error("one 1 0 0 0 0 0 5 7 a.jpg\n"), HasSubstr("images.txt:1: not a number: one"));
+  EXPECT_THAT(error("1 1 0 0 0 0 0 5 7 a.jpg\n\n2 1 0 0 0 0 0 6 7 ./a.jpg\n"),
+              HasSubstr("images.txt: images \"./a.jpg\" and \"a.jpg\" are one picture"));
   EXPECT_THAT(error("# nothing\n"), HasSubstr("holds no pictures"));
+}
+
+TEST(ImportColmap, RefusesAPointOutOfReach) {
+  const TemporaryFolder folder;
+  write_pictures(folder / "p");
+  write_text_model(folder / "p");
+  write_text(folder / "p/points3D.txt", "9 1 2 3 255 0 0 0.5 2 0\n8 1 -1e300 3 255 0 0 0.5 2 0\n");
+  EXPECT_THAT(input_error([&] { import_capture(folder / "p"); }),
+              HasSubstr("points3D.txt:2: a coordinate of -1e+300; expected"));
 }
 
 TEST(ImportColmap, NoModel) {

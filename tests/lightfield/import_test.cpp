@@ -113,6 +113,66 @@ TEST(ImportTransforms, RefusesWhatItCannotRepresent) {
               HasSubstr("w is 1.5, expected an in"));
 }
 
+TEST(ImportTransforms, RefusesIntrinsicsThatNoCameraHas) {
+  OneFrame source;
+  EXPECT_THAT(source.error("\"fl_x\":0,\"fl_y\":20,"),
+              HasSubstr("frames[0] has a camera whose fx is 0; expected 0.16 to 1600"));
+  EXPECT_THAT(source.error("\"fl_x\":1e-200,"), HasSubstr("fx is 1e-200; expected"));
+  EXPECT_THAT(source.error("\"fl_x\":20,\"k1\":1e300,"), HasSubstr("k1 is 1e+300; expected"));
+  EXPECT_THAT(source.error("\"fl_x\":20,\"cx\":-99,"), HasSubstr("cx is -99; expected"));
+  EXPECT_THAT(source.error("\"camera_angle_x\":0,"), HasSubstr("fx is inf; expected"));
+  EXPECT_THAT(source.error("\"camera_angle_x\":4,"), HasSubstr("fx is -"));
+}
+
+TEST(ImportTransforms, RefusesPositionsThatNobodyCanComputeWith) {
+  OneFrame source;
+  const auto error = [&](const std::string& top, const std::string& x) {
+    write_text(source.folder_ / "transforms.json",
+               "{\"fl_x\":20," + top +
+                   "\"frames\":[{\"file_path\":\"images/a.jpg\",\"transform_matrix\":[[1,0,0," + x +
+                   "],[0,1,0,0],[0,0,1,0],[0,0,0,1]]}]}");
+    return input_error([&] { import_capture(source.folder_ / "transforms.json"); });
+  };
+  EXPECT_EQ(error("", "-1e9"), "");
+  EXPECT_THAT(
+      error("", "1e308"),
+      HasSubstr("frames[0].transform_matrix has a coordinate of 1e+308; expected -1e+09 to"));
+  const auto subject = [](const std::string& x, const std::string& radius) {
+    return "\"lumibox\":{\"version\":1,\"subject\":{\"center\":[" + x +
+           ",0,0],\"radius\":" + radius + "}},";
+  };
+  EXPECT_EQ(error(subject("1", "1"), "0"), "");
+  EXPECT_THAT(error(subject("-2e9", "1"), "0"),
+              HasSubstr("subject.center has a coordinate of -2e"));
+  EXPECT_THAT(error(subject("1", "1e308"), "0"), HasSubstr("subject.radius is 1e+308, expected"));
+  write_text(source.folder_ / "far.ply",
+             "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\n"
+             "property float y\nproperty float z\nend_header\n1 2 3\n1 1e300 3\n");
+  EXPECT_THAT(error("\"ply_file_path\":\"far.ply\",", "0"),
+              HasSubstr("far.ply: vertex 1 has a coordinate of 1e+300; expected"));
+}
+
+TEST(ImportTransforms, RefusesTwoFramesOfOnePicture) {
+  OneFrame source;
+  const std::string matrix = std::string("\"transform_matrix\":") + kIdentity;
+  for (const char* second : {"images/a.jpg", "./images/a.jpg", "images/a"}) {
+    write_text(source.folder_ / "transforms.json",
+               "{\"fl_x\":20,\"frames\":[{\"file_path\":\"images/a.jpg\"," + matrix +
+                   "},{\"file_path\":\"" + second + "\"," + matrix + "}]}");
+    EXPECT_THAT(input_error([&] { import_capture(source.folder_ / "transforms.json"); }),
+                HasSubstr("frames[1].file_path names images/a.jpg, as does frames[0].file_path"));
+  }
+}
+
+// A sparse file costs its author nothing, and the memory of whoever reads it.
+TEST(ImportTransforms, RefusesAFileTooLargeToRead) {
+  const TemporaryFolder folder;
+  write_text(folder / "transforms.json", "{}");
+  fs::resize_file(folder / "transforms.json", std::uintmax_t{1} << 40U);
+  EXPECT_THAT(input_error([&] { import_capture(folder / "transforms.json"); }),
+              HasSubstr("transforms.json: 1099511627776 bytes; expected at most 1073741824"));
+}
+
 TEST(ImportTransforms, WithoutFramesOrFile) {
   const TemporaryFolder folder;
   write_text(folder / "transforms.json", R"({"frames":[]})");

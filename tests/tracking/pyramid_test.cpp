@@ -19,6 +19,10 @@ TEST(Pyramid, HalvesByMeansOfFour) {
   EXPECT_EQ(*pyramid.level(1).at(1, 0), 27);  // (20 + 30 + 24 + 34) / 4
 }
 
+TEST(Pyramid, EndsWhereNoPixelIsLeft) {
+  EXPECT_EQ(Pyramid(hal::Image(9, 4, 1), 8).levels(), 3);  // 9x4, 4x2, 2x1
+}
+
 TEST(Pyramid, LevelPositionsAreInverse) {
   for (int level = 0; level < 5; ++level) {
     const Eigen::Vector2d pixel(123.25, 45.5);
