@@ -75,7 +75,7 @@ void Loop::show(Picture picture) {
 
 void Loop::finish() {
   tracker_.finish();
-  recorder_.finish(tracker_);
+  recorder_.finish(map_of(tracker_));
 }
 
 LoopStatistics Loop::statistics() const {

@@ -119,7 +119,7 @@ void write_trajectory(const std::filesystem::path& file,
 /// Brings the capture to disk and says what it came to.
 void finish_capture(const std::filesystem::path& folder, Recorder& recorder,
                     const tracking::Tracker& tracker, nlohmann::json& json) {
-  recorder.finish(tracker);
+  recorder.finish(map_of(tracker));
   const std::size_t perspectives = recorder.light_field().perspectives().size();
   json["perspectives"] = perspectives;
   if (!recorder.light_field().subject()) {
