@@ -46,8 +46,7 @@ class DurableFiles {
   Observer observer_;
 };
 
-/// Makes `folder` for something new. Throws config::InputError if it exists and holds anything:
-/// nothing recorded is ever overwritten.
+/// Makes `folder` for something new. Throws config::InputError if it exists and holds anything.
 void make_new_folder(const DurableFiles& files, const std::filesystem::path& folder);
 
 /// All bytes of a regular file. Throws config::InputError.

@@ -55,6 +55,9 @@ void print_table(const std::vector<render::MethodQuality>& methods) {
 
 void evaluate(const EvaluateOptions& options) {
   const config::Config config = load_config(options.sources);
+  if (options.json) {
+    require_writable(*options.json);
+  }
   const lightfield::Capture capture = lightfield::load_capture(options.capture);
   const auto& perspectives = capture.light_field.perspectives();
   if (perspectives.size() < 2 || !capture.light_field.subject()) {

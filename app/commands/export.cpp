@@ -4,6 +4,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/support.h"
 #include "config/error.h"
+#include "hal/new_folder.h"
 #include "lightfield/capture.h"
 
 namespace lumibox::app {
@@ -24,7 +25,7 @@ lightfield::ExportFormat format_named(const std::string& name) {
 void export_data_set(const ExportOptions& options) {
   const config::Config config = load_config(options.sources);
   const lightfield::ExportFormat format = format_named(options.format);
-  refuse_used_folder(options.out);
+  hal::require_new_folder(options.out);
   const lightfield::Capture capture = lightfield::load_capture(options.capture);
   lightfield::export_capture(capture, format, options.out, config.capture.jpeg_quality);
   std::printf("%zu perspectives in %s\n", capture.light_field.perspectives().size(),
