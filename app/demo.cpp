@@ -123,8 +123,7 @@ void run_demo(const config::Config& config, const std::filesystem::path& out) {
 
   Loop loop(devices, config, out, kLockstep);
   Narrator narrator(out, display);
-  loop.run([&] { return narrator.tell(devices.clock->now_ns()); });
-  loop.finish();
+  loop.run_and_finish([&] { return narrator.tell(devices.clock->now_ns()); });
   say_quality(*scene, loop);
   devices.display->make_current();  // for the loop's end
 }

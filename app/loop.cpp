@@ -1,7 +1,10 @@
 #include "app/loop.h"
 
 #include <numbers>
+#include <stdexcept>
 #include <utility>
+
+#include "app/attempts.h"
 
 namespace lumibox::app {
 
@@ -25,6 +28,13 @@ void Loop::run(const std::function<bool()>& go_on) {
     tick();
     metronome_.wait();
   } while (go_on());
+}
+
+void Loop::run_and_finish(const std::function<bool()>& go_on) {
+  Attempts attempts;
+  attempts.attempt([&] { run(go_on); });
+  attempts.attempt([&] { finish(); });
+  attempts.rethrow_first();
 }
 
 void Loop::tick() {
@@ -69,13 +79,19 @@ void Loop::show(Picture picture) {
   if (const auto error = recorder_.error()) {
     picture_.alerts.push_back("not stored: " + *error);
   }
+  if (const auto error = tracker_.mapping_error()) {
+    picture_.alerts.push_back("the map no longer grows: " + *error);
+  }
   screen_.draw(picture_, sight_.moment().frame);
   devices_.display->present();
 }
 
 void Loop::finish() {
   tracker_.finish();
-  recorder_.finish(tracker_);
+  recorder_.finish(map_of(tracker_));
+  if (const auto error = tracker_.mapping_error()) {
+    throw std::runtime_error("mapping ended: " + *error);
+  }
 }
 
 LoopStatistics Loop::statistics() const {

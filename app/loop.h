@@ -36,10 +36,13 @@ class Loop {
   /// Ticks at the configured rate as long as `go_on` says so after each.
   void run(const std::function<bool()>& go_on);
 
+  /// The same, then finish(), also when a tick throws: what is recorded by then is kept.
+  void run_and_finish(const std::function<bool()>& go_on);
+
   void tick();
 
   /// Brings the capture under way to disk: final corrections, points, pictures. Throws
-  /// config::InputError if something could not be written.
+  /// config::InputError if something could not be written, std::runtime_error if mapping ended.
   void finish();
 
   ModeId mode() const { return modes_.current(); }

@@ -13,10 +13,11 @@
 
 namespace lumibox::app {
 
-/// Where the map's keyframes are now. While `revision` stays the same, none has moved.
-struct MapPoses {
+/// The tracker's map as it is now. While `revision` stays the same, nothing in it has moved.
+struct MapNow {
   std::uint64_t revision = 0;
   std::function<std::optional<geometry::Pose>(tracking::KeyframeId)> world_from_keyframe;
+  std::function<std::vector<Eigen::Vector3d>()> points;  ///< the reliable ones, in world
 };
 
 /// All that the modes see of the world in one tick.
@@ -27,7 +28,7 @@ struct Moment {
   double tracking_ms = 0.0;                 ///< time spent tracking it; 0 on a virtual clock
   tracking::TrackedFrame tracked;           ///< of `frame`
   std::vector<Eigen::Vector3d> map_points;  ///< in world, those seen in `frame`
-  MapPoses map;
+  MapNow map;
 
   bool tracking_is_good() const {
     return fresh && tracked.state == tracking::TrackingState::Good && tracked.world_from_camera;

@@ -18,10 +18,7 @@ Recorder::Recorder(const geometry::Camera& camera, const config::Capture& option
 Recorder::~Recorder() = default;
 
 void Recorder::begin(const Sphere& sphere, const Moment& moment, std::filesystem::path folder) {
-  if (store_) {
-    follow_map(moment.map, 0.0);
-  }
-  store_.reset();  // waits for the writer: the capture before is complete
+  end_capture(moment.map);
   open_error_.reset();
   folder_ = std::move(folder);
   light_field_ = lightfield::LightField{};
@@ -88,7 +85,7 @@ bool Recorder::undo_wipe() {
   return perspective.has_value();
 }
 
-void Recorder::follow_map(const MapPoses& map, double tolerance) {
+void Recorder::follow_map(const MapNow& map, double tolerance) {
   if (map.revision == map_revision_ || !light_field_.subject()) {
     return;
   }
@@ -121,7 +118,7 @@ void Recorder::follow_map(const MapPoses& map, double tolerance) {
   }
 }
 
-void Recorder::follow_subject(const MapPoses& map, double tolerance) {
+void Recorder::follow_subject(const MapNow& map, double tolerance) {
   const auto world_from_keyframe = map.world_from_keyframe(subject_keyframe_);
   if (!world_from_keyframe) {
     return;
@@ -138,29 +135,41 @@ void Recorder::follow_subject(const MapPoses& map, double tolerance) {
   }
 }
 
-void Recorder::finish(const tracking::Tracker& tracker) {
-  follow_map({tracker.map_revision(),
-              [&](tracking::KeyframeId id) { return tracker.world_from_keyframe(id); }},
-             0.0);
-  if (const auto problem = error()) {
-    throw config::InputError(*problem);
-  }
+void Recorder::end_capture(const MapNow& map) {
+  std::erase_if(ended_stores_, [](const auto& store) { return store->ended() && !store->error(); });
+  map_revision_.reset();  // moves that were too small so far count now
+  follow_map(map, 0.0);
   if (!store_) {
     return;
   }
-  std::vector<Eigen::Vector3d> points;
-  for (const tracking::MapPoint& point : tracker.points()) {
-    points.push_back(point.position);
+  store_->set_points(map.points());
+  store_->end();
+  ended_stores_.push_back(std::move(store_));
+}
+
+void Recorder::finish(const MapNow& map) {
+  end_capture(map);
+  if (open_error_) {
+    throw config::InputError(*open_error_);
   }
-  store_->set_points(std::move(points));
-  store_->flush();
+  for (const auto& store : ended_stores_) {
+    store->flush();
+  }
 }
 
 std::optional<std::string> Recorder::error() const {
   if (open_error_) {
     return open_error_;
   }
-  return store_ ? store_->error() : std::nullopt;
+  if (store_ && store_->error()) {
+    return store_->error();
+  }
+  for (const auto& store : ended_stores_) {
+    if (const auto problem = store->error()) {
+      return problem;
+    }
+  }
+  return std::nullopt;
 }
 
 std::filesystem::path next_capture_folder(const std::filesystem::path& captures) {

@@ -13,7 +13,7 @@
 #include "geometry/camera.h"
 #include "lightfield/light_field.h"
 #include "lightfield/store.h"
-#include "tracking/tracker.h"
+#include "tracking/tracked_frame.h"
 
 namespace lumibox::app {
 
@@ -28,8 +28,8 @@ class Recorder {
   ~Recorder();
 
   /// Begins a capture of the subject in `sphere`, kept in `folder`, which is made when the first
-  /// perspective is recorded. The capture before, if any, is complete on disk and left alone. The
-  /// sphere hangs on the keyframe of `moment`.
+  /// perspective is recorded. The capture before, if any, ends with the map of `moment`: its writer
+  /// brings it to disk while this one begins. The sphere hangs on the keyframe of `moment`.
   void begin(const lightfield::Sphere& sphere, const Moment& moment, std::filesystem::path folder);
 
   /// Thesis 2.3, with `threshold` in radians: true if the moment's picture should be recorded.
@@ -42,20 +42,22 @@ class Recorder {
   bool undo_wipe();
 
   /// Moves what the map has moved by more than `tolerance`, a share of the distance to the subject.
-  void follow_map(const MapPoses& map, double tolerance);
+  void follow_map(const MapNow& map, double tolerance);
 
-  /// Brings everything to disk after the last correction of the map: poses, the map's points,
-  /// pictures. Throws config::InputError if something could not be written.
-  void finish(const tracking::Tracker& tracker);
+  /// Ends the capture after the last correction of the map, and waits until all captures are on
+  /// disk: poses, the map's points, pictures. Throws config::InputError if something of any of them
+  /// could not be written.
+  void finish(const MapNow& map);
 
   const lightfield::LightField& light_field() const { return light_field_; }
 
-  /// First thing that went wrong with storing, for the screen.
+  /// What went wrong with storing this capture, or else one before it, for the screen.
   std::optional<std::string> error() const;
 
  private:
   void open_store();
-  void follow_subject(const MapPoses& map, double tolerance);
+  void end_capture(const MapNow& map);
+  void follow_subject(const MapNow& map, double tolerance);
 
   std::shared_ptr<const geometry::Camera> camera_;
   config::Capture options_;
@@ -63,6 +65,8 @@ class Recorder {
   std::filesystem::path folder_;
   lightfield::LightField light_field_;
   std::unique_ptr<lightfield::Store> store_;
+  /// Of captures before: those whose writer is still at work or has failed.
+  std::vector<std::unique_ptr<lightfield::Store>> ended_stores_;
   std::optional<std::string> open_error_;
   std::optional<std::uint64_t> map_revision_;  ///< that all poses agree with; none: to be checked
   tracking::KeyframeId subject_keyframe_ = -1;

@@ -2,14 +2,25 @@
 
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace lumibox::app {
 
+MapNow map_of(const tracking::Tracker& tracker) {
+  const auto points = [&tracker] {
+    std::vector<Eigen::Vector3d> positions;
+    for (const tracking::MapPoint& point : tracker.points()) {
+      positions.push_back(point.position);
+    }
+    return positions;
+  };
+  return {tracker.map_revision(),
+          [&tracker](tracking::KeyframeId id) { return tracker.world_from_keyframe(id); }, points};
+}
+
 Sight::Sight(hal::Camera& camera, const hal::Clock& clock, tracking::Tracker& tracker)
     : camera_(camera), clock_(clock), tracker_(tracker) {
-  moment_.map.world_from_keyframe = [this](tracking::KeyframeId id) {
-    return tracker_.world_from_keyframe(id);
-  };
+  moment_.map = map_of(tracker_);
 }
 
 const Moment& Sight::look() {

@@ -7,6 +7,9 @@
 
 namespace lumibox::app {
 
+/// The map of a tracker, which must outlive the result.
+MapNow map_of(const tracking::Tracker& tracker);
+
 /// What the box sees: the camera's newest frame, tracked.
 class Sight {
  public:

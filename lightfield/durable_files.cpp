@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "config/error.h"
+#include "hal/new_folder.h"
 
 namespace lumibox::lightfield {
 namespace {
@@ -91,15 +92,7 @@ void DurableFiles::remove(const fs::path& path) const {
 }
 
 void make_new_folder(const DurableFiles& files, const fs::path& folder) {
-  std::error_code error;
-  const bool exists = fs::exists(folder, error);
-  if (exists && !fs::is_directory(folder, error)) {
-    throw config::InputError(folder, "is a file; expected an empty or absent folder");
-  }
-  if (exists && !fs::is_empty(folder, error)) {
-    throw config::InputError(folder, error ? "cannot be read: " + error.message()
-                                           : "is not empty; expected an empty or absent folder");
-  }
+  hal::require_new_folder(folder);
   files.make_folder(folder);
 }
 

@@ -45,8 +45,7 @@ class DurableFiles {
   Observer observer_;
 };
 
-/// Makes `folder` for something new. Throws config::InputError if it exists and holds anything:
-/// nothing recorded is ever overwritten.
+/// Makes `folder` for something new. Throws config::InputError if it exists and holds anything.
 void make_new_folder(const DurableFiles& files, const std::filesystem::path& folder);
 
 }  // namespace lumibox::lightfield

@@ -23,17 +23,8 @@ class Store::Impl {
   }
 
   ~Impl() {
-    post([](CaptureWriter& writer) {
-      writer.commit_moves();
-      writer.remove_unnamed_pictures();
-    });
-    if (!thread_.joinable()) return;
-    {
-      const std::lock_guard lock(mutex_);
-      stopping_ = true;
-    }
-    wake_.notify_all();
-    thread_.join();
+    end();
+    if (thread_.joinable()) thread_.join();
   }
 
   void post(Change change) {
@@ -48,8 +39,26 @@ class Store::Impl {
     wake_.notify_all();
   }
 
+  void end() {
+    if (ending_) return;
+    post([](CaptureWriter& writer) {
+      writer.commit_moves();
+      writer.remove_unnamed_pictures();
+    });
+    {
+      const std::lock_guard lock(mutex_);
+      ending_ = true;
+    }
+    wake_.notify_all();
+  }
+
+  bool ended() const {
+    const std::lock_guard lock(mutex_);
+    return ending_ && queue_.empty() && !busy_;
+  }
+
   void flush() {
-    post([](CaptureWriter& writer) { writer.commit_moves(); });
+    if (!ending_) post([](CaptureWriter& writer) { writer.commit_moves(); });
     {
       std::unique_lock lock(mutex_);
       idle_.wait(lock, [this] { return queue_.empty() && !busy_; });
@@ -68,7 +77,7 @@ class Store::Impl {
   void run() {
     std::unique_lock lock(mutex_);
     while (true) {
-      wake_.wait(lock, [this] { return stopping_ || !queue_.empty(); });
+      wake_.wait(lock, [this] { return ending_ || !queue_.empty(); });
       if (queue_.empty()) return;
       const std::vector<Change> changes = std::exchange(queue_, {});
       busy_ = true;
@@ -106,8 +115,8 @@ class Store::Impl {
   std::vector<Change> queue_;
   std::optional<std::string> error_;
   bool busy_ = false;
-  bool stopping_ = false;
-  std::thread thread_;  ///< last: it uses all of the above
+  bool ending_ = false;  ///< set by the caller's thread, which alone reads it unguarded
+  std::thread thread_;   ///< last: it uses all of the above
 };
 
 Store::Store(const std::filesystem::path& folder, int jpeg_quality, Writing writing,
@@ -149,6 +158,14 @@ std::optional<std::string> Store::error() const {
 
 void Store::flush() {
   impl_->flush();
+}
+
+void Store::end() {
+  impl_->end();
+}
+
+bool Store::ended() const {
+  return impl_->ended();
 }
 
 const std::filesystem::path& Store::folder() const {

@@ -28,14 +28,14 @@ class Store {
   Store(const std::filesystem::path& folder, int jpeg_quality, Writing writing,
         DurableFiles files = {});
 
-  /// Writes what is left, then removes the pictures of wiped perspectives.
+  /// end(), and waits for it.
   ~Store();
   Store(const Store&) = delete;
   Store& operator=(const Store&) = delete;
 
   /// Each returns at once when Threaded. Perspectives come with the id that their LightField gave
-  /// them, picture and camera. The pictures of wiped ones stay on disk, unnamed, until the Store
-  /// ends, so that undo finds them.
+  /// them, picture and camera. The pictures of wiped ones stay on disk, unnamed, until end(),
+  /// so that undo finds them.
   void add(const Perspective& perspective);
   void remove(int id);
   void restore(const Perspective& perspective);
@@ -52,6 +52,13 @@ class Store {
 
   /// Waits until everything handed over is on disk. Throws config::InputError on error().
   void flush();
+
+  /// Writes what is left, then removes the pictures of wiped perspectives; returns at once when
+  /// Threaded. Nothing may be changed any more.
+  void end();
+
+  /// True once all that end() asked for is done, or has failed: destruction no longer waits.
+  bool ended() const;
 
   const std::filesystem::path& folder() const;
 

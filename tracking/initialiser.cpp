@@ -175,7 +175,10 @@ Initialiser::Progress Initialiser::make_map(const std::shared_ptr<const Pyramid>
                                             const std::vector<bool>& inliers,
                                             std::span<const geometry::BearingPair> pairs,
                                             std::span<const Track* const> used) const {
-  InitialMap map{first_, frame, second_from_first, {}, {}, {}};
+  InitialMap map;
+  map.first = first_;
+  map.second = frame;
+  map.second_from_first = second_from_first;
   std::vector<PointPath> paths;
   std::vector<double> depths;
   for (std::size_t i = 0; i < used.size(); ++i) {

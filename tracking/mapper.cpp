@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "config/log.h"
 #include "tracking/map_adjustment.h"
 #include "tracking/point_creation.h"
 
@@ -47,7 +48,7 @@ void Mapper::start(const InitialMap& initial) {
 
 void Mapper::request(KeyframeRequest request) {
   if (mapping_ == Mapping::Lockstep) {
-    integrate(request);
+    attempt([&] { integrate(request); });
     return;
   }
   {
@@ -72,11 +73,18 @@ void Mapper::finish() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return requests_.empty() && !working_; });
   }
-  if (map_.keyframes().empty()) return;
-  // Twice: the second pass no longer has the outliers that the first removed.
-  adjust_globally(camera_, map_);
-  adjust_globally(camera_, map_);
-  publish();
+  if (!view()) return;
+  attempt([this] {
+    // Twice: the second pass no longer has the outliers that the first removed.
+    adjust_globally(camera_, map_);
+    adjust_globally(camera_, map_);
+    publish();
+  });
+}
+
+std::optional<std::string> Mapper::error() const {
+  const std::lock_guard lock(mutex_);
+  return error_;
 }
 
 void Mapper::run() {
@@ -88,10 +96,22 @@ void Mapper::run() {
     requests_.pop_front();
     working_ = true;
     lock.unlock();
-    integrate(request);
+    attempt([&] { integrate(request); });
     lock.lock();
     working_ = false;
     changed_.notify_all();
+  }
+}
+
+/// An exception leaves map_ half changed: it is not touched again. What is published stays whole.
+void Mapper::attempt(const std::function<void()>& work) {
+  if (error()) return;
+  try {
+    work();
+  } catch (const std::exception& exception) {
+    config::log_error(std::string("mapping ended: ") + exception.what());
+    const std::lock_guard lock(mutex_);
+    error_ = exception.what();
   }
 }
 

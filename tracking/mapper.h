@@ -3,8 +3,11 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -57,8 +60,13 @@ class Mapper {
   /// Works off all requests, then adjusts the whole map.
   void finish();
 
+  /// The exception that ended mapping; none if all is well. Afterwards requests are ignored, and
+  /// view() stays what it was.
+  std::optional<std::string> error() const;
+
  private:
   void run();
+  void attempt(const std::function<void()>& work);
   void integrate(const KeyframeRequest& request);
   void weigh(const std::vector<PointEvidence>& evidence);
   void publish();
@@ -76,6 +84,7 @@ class Mapper {
   bool working_ = false;
   bool stopping_ = false;
   std::shared_ptr<const MapView> view_;
+  std::optional<std::string> error_;
 
   std::thread thread_;
 };

@@ -42,7 +42,8 @@ Described describe(const Pyramid& pyramid, const std::vector<Corner>& corners) {
   return result;
 }
 
-/// Mean squared difference of two small images after removing their means.
+/// Sum of the squared differences of two small images, which have the same size and their means
+/// removed.
 double difference(const SmallImage& a, const SmallImage& b) {
   double sum = 0.0;
   for (int y = 0; y < a.height(); ++y) {
@@ -63,12 +64,12 @@ class Relocaliser::Impl {
 
   std::optional<geometry::Pose> find(const MapView& map, const Pyramid& frame,
                                      const SmallImage& small) {
-    remember(map);
     const Described here = describe(
         frame, detect_corners(frame, options_.fast_threshold, options_.max_features_per_keyframe));
     if (here.pixels.empty()) return std::nullopt;
     std::optional<geometry::AbsolutePose> best;
-    for (const std::size_t id : shortlist(small)) {
+    for (const std::size_t id : shortlist(map, small)) {
+      if (!known_[id].described) describe_keyframe(map, id);
       auto pose = match(map, id, here);
       if (pose && (!best || pose->inlier_count > best->inlier_count)) best = std::move(pose);
     }
@@ -76,40 +77,34 @@ class Relocaliser::Impl {
     return best->camera_from_world;
   }
 
+  int described() const {
+    return static_cast<int>(std::count_if(known_.begin(), known_.end(), [](const auto& keyframe) {
+      return keyframe.described.has_value();
+    }));
+  }
+
  private:
   struct KnownKeyframe {
     SmallImage small;
-    Described described;          // at the sightings of map points
-    std::vector<PointId> points;  // one per descriptor
+    std::optional<Described> described;  // at the sightings of map points
+    std::vector<PointId> points;         // one per descriptor
   };
 
-  void remember(const MapView& map) {
-    const std::size_t first_new = known_.size();
-    known_.resize(map.keyframes.size());
-    for (std::size_t i = first_new; i < known_.size(); ++i) {
-      known_[i].small = SmallImage(*map.keyframes[i].pyramid);
-    }
-    std::vector<std::vector<std::pair<PointId, const Sighting*>>> seen(map.keyframes.size());
+  void describe_keyframe(const MapView& map, std::size_t id) {
+    KnownKeyframe& known = known_[id];
+    std::vector<std::pair<PointId, const Sighting*>> seen;
     for (const MapView::Point& p : map.points) {
       for (std::uint32_t s = p.first_sighting; s < p.first_sighting + p.sightings; ++s) {
         const Sighting& sighting = map.sightings[s];
-        seen[static_cast<std::size_t>(sighting.keyframe)].emplace_back(p.id, &sighting);
+        if (static_cast<std::size_t>(sighting.keyframe) == id) seen.emplace_back(p.id, &sighting);
       }
     }
-    for (std::size_t i = first_new; i < known_.size(); ++i) {
-      describe_keyframe(*map.keyframes[i].pyramid, seen[i], known_[i]);
-    }
-  }
-
-  static void describe_keyframe(const Pyramid& pyramid,
-                                const std::vector<std::pair<PointId, const Sighting*>>& seen,
-                                KnownKeyframe& known) {
     std::vector<Corner> corners;
-    for (const auto& [id, s] : seen)
+    for (const auto& [point, s] : seen)
       corners.push_back({to_level(s->pixel, s->level), s->level, 1.0F});
-    known.described = describe(pyramid, corners);
+    known.described = describe(*map.keyframes[id].pyramid, corners);
     // The describer drops corners near the border and may reorder; find each one's point again.
-    for (const Eigen::Vector2d& pixel : known.described.pixels) {
+    for (const Eigen::Vector2d& pixel : known.described->pixels) {
       const auto nearest =
           std::min_element(seen.begin(), seen.end(), [&](const auto& a, const auto& b) {
             return (a.second->pixel - pixel).squaredNorm() <
@@ -119,7 +114,10 @@ class Relocaliser::Impl {
     }
   }
 
-  std::vector<std::size_t> shortlist(const SmallImage& small) const {
+  std::vector<std::size_t> shortlist(const MapView& map, const SmallImage& small) {
+    for (std::size_t i = known_.size(); i < map.keyframes.size(); ++i) {
+      known_.push_back({SmallImage(*map.keyframes[i].pyramid), std::nullopt, {}});
+    }
     std::vector<std::pair<double, std::size_t>> ranked;
     for (std::size_t i = 0; i < known_.size(); ++i) {
       ranked.emplace_back(difference(small, known_[i].small), i);
@@ -137,7 +135,7 @@ class Relocaliser::Impl {
     if (known.points.empty()) return std::nullopt;
     std::vector<std::vector<cv::DMatch>> matches;
     cv::BFMatcher(cv::NORM_HAMMING)
-        .knnMatch(here.descriptors, known.described.descriptors, matches, 2);
+        .knnMatch(here.descriptors, known.described->descriptors, matches, 2);
     std::vector<Eigen::Vector3d> points;
     std::vector<Eigen::Vector3d> bearings;
     for (const auto& m : matches) {
@@ -168,6 +166,10 @@ Relocaliser::Relocaliser(const geometry::Camera& camera, const config::Tracking&
                          std::uint32_t seed)
     : impl_(std::make_unique<Impl>(camera, options, seed)) {}
 Relocaliser::~Relocaliser() = default;
+
+int Relocaliser::described() const {
+  return impl_->described();
+}
 
 std::optional<geometry::Pose> Relocaliser::find(const MapView& map, const Pyramid& frame,
                                                 const SmallImage& small) {

@@ -14,8 +14,9 @@
 namespace lumibox::tracking {
 
 /// Finds the camera in a known map without knowing where it was: keyframes that look alike,
-/// descriptor matches to their points, P3P. Keyframes are described when they are first needed,
-/// so it costs nothing while tracking goes well.
+/// descriptor matches to their points, P3P. A keyframe is described when a frame first looks
+/// like it: that costs nothing while tracking goes well, and a lost frame only a few keyframes'
+/// time.
 class Relocaliser {
  public:
   Relocaliser(const geometry::Camera& camera, const config::Tracking& options, std::uint32_t seed);
@@ -25,6 +26,9 @@ class Relocaliser {
   /// by tracking from there.
   std::optional<geometry::Pose> find(const MapView& map, const Pyramid& frame,
                                      const SmallImage& small);
+
+  /// Keyframes described so far.
+  int described() const;
 
  private:
   class Impl;

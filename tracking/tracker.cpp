@@ -124,6 +124,8 @@ class Tracker::Impl {
     if (map_) adopt_newest_map();
   }
 
+  std::optional<std::string> mapping_error() const { return mapper_.error(); }
+
  private:
   const MapView::Keyframe& keyframe(KeyframeId id) const {
     return map_->keyframes[static_cast<std::size_t>(id)];
@@ -225,7 +227,6 @@ class Tracker::Impl {
     camera_from_world_ = found->pose.camera_from_world;
     choose_anchor();
     gather_evidence(*found);
-    if (good) result.reason = TrackingReason::None;
     report_pose(good ? TrackingState::Good : TrackingState::Poor, found->inliers, result);
   }
 
@@ -381,6 +382,9 @@ TrackerStatistics Tracker::statistics() const {
 }
 void Tracker::finish() {
   impl_->finish();
+}
+std::optional<std::string> Tracker::mapping_error() const {
+  return impl_->mapping_error();
 }
 
 }  // namespace lumibox::tracking

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "config/config.h"
@@ -63,6 +64,10 @@ class Tracker {
 
   /// Waits for the mapper and runs the final adjustment.
   void finish();
+
+  /// What ended the mapping, an error of the program or of memory; none if all is well. Tracking
+  /// goes on with the map as it was.
+  std::optional<std::string> mapping_error() const;
 
  private:
   class Impl;

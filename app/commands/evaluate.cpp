@@ -60,6 +60,9 @@ void evaluate(const EvaluateOptions& options) {
       refuse_recorded(*result, options.capture);
     }
   }
+  if (options.json) {
+    require_writable(*options.json);
+  }
   const lightfield::Capture capture = lightfield::load_capture(options.capture);
   const auto& perspectives = capture.light_field.perspectives();
   if (perspectives.size() < 2) {

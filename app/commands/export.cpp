@@ -2,12 +2,13 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/support.h"
+#include "hal/new_folder.h"
 #include "lightfield/capture.h"
 
 namespace lumibox::app {
 void export_data_set(const ExportOptions& options) {
   const config::Config config = load_config(options.sources);
-  refuse_used_folder(options.out);
+  hal::require_new_folder(options.out);
   const lightfield::Capture capture = lightfield::load_capture(options.capture);
   const auto format = options.format == "colmap" ? lightfield::ExportFormat::Colmap
                                                  : lightfield::ExportFormat::Nerfstudio;

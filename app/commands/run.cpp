@@ -23,8 +23,8 @@ void run(const RunOptions& options) {
   Loop loop(devices, config, config.capture.folder, devices.lockstep ? kLockstep : kThreaded);
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
-  loop.run([&] { return stop_asked == 0 && devices.camera->state() != hal::CameraState::Ended; });
-  loop.finish();
+  loop.run_and_finish(
+      [&] { return stop_asked == 0 && devices.camera->state() != hal::CameraState::Ended; });
   const LoopStatistics statistics = loop.statistics();
   std::printf("%lld ticks, %lld late; %lld frames, %lld tracked; %zu perspectives\n",
               static_cast<long long>(statistics.ticks),

@@ -3,13 +3,14 @@
 #include "app/commands/commands.h"
 #include "app/commands/support.h"
 #include "app/progress.h"
+#include "hal/new_folder.h"
 #include "hal/sim/scene.h"
 
 namespace lumibox::app {
 
 void simulate(const SimOptions& options) {
   load_config(options.sources);
-  refuse_used_folder(options.out);
+  hal::require_new_folder(options.out);
   const auto scene = hal::load_scene(options.scene);
   make_parent_folder(options.out);
   {

@@ -1,7 +1,9 @@
 #include "app/commands/support.h"
 
+#include <cerrno>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "config/error.h"
 #include "config/log.h"
@@ -15,16 +17,16 @@ config::Config load_config(const config::Sources& sources) {
   return config;
 }
 
-void refuse_used_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  if (!std::filesystem::exists(folder, error)) {
-    return;
+void require_writable(const std::filesystem::path& file) {
+  make_parent_folder(file);
+  std::error_code ignored;
+  const bool is_there = std::filesystem::exists(file, ignored);
+  errno = 0;
+  if (!std::ofstream(file, std::ios::app)) {
+    throw config::InputError(file, "cannot be written: " + std::generic_category().message(errno));
   }
-  if (!std::filesystem::is_directory(folder, error)) {
-    throw config::InputError(folder, "is a file; expected an empty or absent folder");
-  }
-  if (!std::filesystem::is_empty(folder, error)) {
-    throw config::InputError(folder, "is not empty; nothing recorded is ever overwritten");
+  if (!is_there) {
+    std::filesystem::remove(file, ignored);
   }
 }
 
@@ -50,7 +52,6 @@ const lightfield::Sphere& subject_of(const lightfield::Capture& capture) {
 }
 
 void write_json(const std::filesystem::path& file, const nlohmann::json& json) {
-  make_parent_folder(file);
   std::ofstream stream(file);
   stream << json.dump(2) << '\n';
   stream.close();

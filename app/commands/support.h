@@ -12,14 +12,15 @@ namespace lumibox::app {
 /// The configuration, with the log set to its level.
 config::Config load_config(const config::Sources& sources);
 
-/// Writes a JSON file and the folder it is in; throws config::InputError if it cannot.
+/// Says before the work that a result of it can be written there, and makes the folder it will be
+/// in; throws config::InputError if not. A file that is there keeps its content.
+void require_writable(const std::filesystem::path& file);
+
+/// Writes a JSON file; throws config::InputError if it cannot.
 void write_json(const std::filesystem::path& file, const nlohmann::json& json);
 
 /// Makes the folder that a file is to be written into.
 void make_parent_folder(const std::filesystem::path& file);
-
-/// Throws config::InputError if the folder holds something already.
-void refuse_used_folder(const std::filesystem::path& folder);
 
 /// Throws config::InputError if `result`, a file or folder to be written, is a part of the capture.
 void refuse_recorded(const std::filesystem::path& result, const std::filesystem::path& capture);

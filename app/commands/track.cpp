@@ -1,10 +1,11 @@
 #include <cstdio>
-#include <exception>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "app/attempts.h"
 #include "app/auto_capture.h"
 #include "app/commands/commands.h"
 #include "app/commands/support.h"
@@ -17,6 +18,7 @@
 #include "config/log.h"
 #include "hal/replay/replay_camera.h"
 #include "hal/system_clock.h"
+#include "lightfield/durable_files.h"
 
 namespace lumibox::app {
 namespace {
@@ -119,16 +121,24 @@ void say(const TrackReport& report, const nlohmann::json& json) {
   }
 }
 
-void write_trajectory(const std::filesystem::path& file,
-                      const std::vector<hal::StampedPose>& trajectory) {
-  make_parent_folder(file);
-  hal::write_tum_trajectory(file, trajectory);
+/// An hour of tracking must not end at a mistyped folder.
+void try_outputs(const TrackOptions& options) {
+  if (options.capture) {
+    lightfield::make_new_folder({}, *options.capture);
+  }
+  require_writable(options.out);
+  if (options.live) {
+    require_writable(*options.live);
+  }
+  if (options.json) {
+    require_writable(*options.json);
+  }
 }
 
 /// Brings the capture to disk and says what it came to.
 void finish_capture(const std::filesystem::path& folder, Recorder& recorder,
                     const tracking::Tracker& tracker, nlohmann::json& json) {
-  recorder.finish(tracker);
+  recorder.finish(map_of(tracker));
   const std::size_t perspectives = recorder.light_field().perspectives().size();
   json["perspectives"] = perspectives;
   if (!recorder.light_field().subject()) {
@@ -155,6 +165,7 @@ void track(const TrackOptions& options) {
     throw config::InputError("--subject: frame " + std::to_string(options.subject->frame) +
                              "; the recording has " + std::to_string(frames) + ", from 0");
   }
+  try_outputs(options);
   hal::SystemClock clock;
   hal::ReplayCamera camera(sequence, clock,
                            options.realtime ? hal::Pacing::Recorded : hal::Pacing::Lockstep);
@@ -163,39 +174,38 @@ void track(const TrackOptions& options) {
   Recorder recorder(model, config.capture, threading.writing);
   std::optional<AutoCapture> capture;
   if (options.capture) {
-    refuse_used_folder(*options.capture);
     capture.emplace(recorder, model, config.capture, *options.capture, options.subject);
   }
 
   camera.start();
   Result result;
-  std::exception_ptr broken_off;  // a picture that cannot be read: what came before it is kept
-  try {
-    play(sight, camera, clock, capture ? &*capture : nullptr, frames, result);
-  } catch (const config::InputError&) {
-    broken_off = std::current_exception();
-  }
+  Attempts attempts;  // whatever goes wrong, all that was tracked before it is kept
+  attempts.attempt(
+      [&] { play(sight, camera, clock, capture ? &*capture : nullptr, frames, result); });
   tracker.finish();
+  attempts.attempt([&] {
+    if (const auto error = tracker.mapping_error()) {
+      throw std::runtime_error("mapping ended: " + *error);
+    }
+  });
 
   nlohmann::json json = result.report.to_json(tracker.statistics());
   if (capture) {
-    finish_capture(*options.capture, recorder, tracker, json);
+    attempts.attempt([&] { finish_capture(*options.capture, recorder, tracker, json); });
   }
   const auto live = live_trajectory(result);
   const auto corrected = final_trajectory(result, tracker);
-  write_trajectory(options.out, corrected);
+  attempts.attempt([&] { hal::write_tum_trajectory(options.out, corrected); });
   if (options.live) {
-    write_trajectory(*options.live, live);
+    attempts.attempt([&] { hal::write_tum_trajectory(*options.live, live); });
   }
   say(result.report, json);
   judge("live", live, sequence, json);
   judge("final", corrected, sequence, json);
   if (options.json) {
-    write_json(*options.json, json);
+    attempts.attempt([&] { write_json(*options.json, json); });
   }
-  if (broken_off) {
-    std::rethrow_exception(broken_off);
-  }
+  attempts.rethrow_first();
   if (result.frames.empty()) {
     throw config::InputError(options.sequence, std::string("no frame could be tracked: ") +
                                                    tracking::advice(result.report.last_reason()));

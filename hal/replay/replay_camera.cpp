@@ -48,13 +48,16 @@ class ReplayCamera::Impl {
   }
 
  private:
-  /// Number of entries that have appeared by now, those already handed out included.
+  /// Number of entries that have appeared by now, those already handed out included. Stamps are
+  /// rounded and jitter: an entry counts a quarter of a period early, or a loop that ticks at the
+  /// recording's own rate would miss one by a microsecond and find two at the next tick.
   std::size_t entries_due() const {
     if (pacing_ == Pacing::Lockstep) {
       return next_ + 1;
     }
     const std::int64_t first_ns = sequence_.entries.front().timestamp_ns;
-    const std::int64_t elapsed_ns = clock_.now_ns() - start_ns_;
+    const auto tolerance_ns = static_cast<std::int64_t>(0.25e9 / sequence_.profile.fps);
+    const std::int64_t elapsed_ns = clock_.now_ns() - start_ns_ + tolerance_ns;
     std::size_t due = next_;
     while (due < sequence_.entries.size() &&
            sequence_.entries[due].timestamp_ns - first_ns <= elapsed_ns) {

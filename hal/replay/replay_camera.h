@@ -10,7 +10,8 @@ namespace lumibox::hal {
 
 enum class Pacing {
   Lockstep,  ///< each take_newest() gives the next frame; none is dropped
-  Recorded,  ///< frames appear when the clock has advanced as far as in the recording
+  Recorded,  ///< frames appear when the clock has advanced as far as in the recording, to a quarter
+             ///< of a frame period
 };
 
 /// A recording played as a camera.

@@ -7,6 +7,7 @@
 #include "config/error.h"
 #include "geometry/rotation.h"
 #include "hal/image_io.h"
+#include "hal/new_folder.h"
 #include "hal/sim/frame_renderer.h"
 #include "hal/sim/scene.h"
 
@@ -19,18 +20,6 @@ void make_folders(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder / "rgb", error);
   if (error) throw config::InputError(folder, "cannot make this folder: " + error.message());
-}
-
-/// A sequence is not mixed with what is already there.
-void refuse_occupied(const fs::path& folder) {
-  std::error_code error;
-  if (!fs::exists(folder, error)) return;
-  if (!fs::is_directory(folder, error)) {
-    throw config::InputError(folder, "is a file; expected a new or empty folder");
-  }
-  if (fs::directory_iterator(folder, error) != fs::directory_iterator() || error) {
-    throw config::InputError(folder, "is not empty; expected a new or empty folder");
-  }
 }
 
 /// A text file that holds whole lines at every instant, whoever stops the program.
@@ -101,7 +90,7 @@ std::string seconds(std::int64_t ns) {
 
 void write_sequence(const Scene& scene, const fs::path& folder,
                     const std::function<void(std::int64_t, std::int64_t)>& progress) {
-  refuse_occupied(folder);
+  require_new_folder(folder);
   make_folders(folder);
   write_calibration(scene.profile(), folder / "calib.txt");
   write_subject(scene.subject(), folder / "subject.txt");

@@ -192,6 +192,8 @@ TEST(CommandLine, FoldersThatHoldSomethingAreNotOverwritten) {
   EXPECT_COMPLAINT(lumibox("export c --format colmap --out " + full), HasSubstr(full));
   EXPECT_COMPLAINT(lumibox("sim scene.toml --out " + full), HasSubstr(full));
   EXPECT_EQ(read_text(dir / "full" / "file"), "precious");
+  EXPECT_COMPLAINT(lumibox("import transforms.json " + full + "/file"),
+                   HasSubstr("is a file; expected an empty or absent folder"));
 }
 
 TEST(CommandLine, RecordingThatCannotBeTrackedLeavesItsStatisticsAndSaysWhy) {
@@ -217,6 +219,29 @@ TEST(CommandLine, WhatCameBeforeABrokenPictureIsKept) {
                    HasSubstr("000003.png"));
   EXPECT_THAT(read_text(out + ".json"), HasSubstr("\"frames\": 3"));
   EXPECT_TRUE(std::filesystem::exists(out + ".tum"));
+}
+
+TEST(CommandLine, PlacesForResultsAreTriedBeforeTheWork) {
+  const Recording recording;
+  const TempDir dir;
+  dir.write("file", "in the way");
+  const std::string bad = (dir / "file" / "stats.json").string();
+  const std::string out = (dir / "walk.tum").string();
+  EXPECT_COMPLAINT(
+      lumibox("track " + recording.folder().string() + " --out " + out + " --json " + bad),
+      HasSubstr((dir / "file").string()));
+  EXPECT_FALSE(std::filesystem::exists(out)) << "nothing was tracked, and the trial left nothing";
+  EXPECT_COMPLAINT(lumibox("evaluate /nowhere/capture --json " + dir.path().string()),
+                   HasSubstr(dir.path().string() + ": cannot be written: Is a directory"));
+}
+
+TEST(CommandLine, AnErrorWithOneResultDoesNotCostTheOthers) {
+  const Recording recording;
+  const TempDir dir;
+  EXPECT_COMPLAINT(lumibox("track " + recording.folder().string() + " --out /dev/full --json " +
+                           (dir / "stats.json").string()),
+                   HasSubstr("/dev/full"));
+  EXPECT_THAT(read_text(dir / "stats.json"), HasSubstr("\"frames\": 5"));
 }
 
 struct Spoiled {

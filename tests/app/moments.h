@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "app/moment.h"
 #include "hal/image.h"
@@ -22,10 +23,14 @@ class World {
     ++revision_;
   }
 
-  app::MapPoses map() const {
-    return {revision_, [this](tracking::KeyframeId id) -> std::optional<geometry::Pose> {
+  app::MapNow map() const {
+    return {revision_,
+            [this](tracking::KeyframeId id) -> std::optional<geometry::Pose> {
               const auto it = keyframes_.find(id);
               return it == keyframes_.end() ? std::nullopt : std::optional(it->second);
+            },
+            [] {
+              return std::vector<Eigen::Vector3d>{{1.0, 2.0, 3.0}};
             }};
   }
 

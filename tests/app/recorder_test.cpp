@@ -1,10 +1,12 @@
 #include "app/recorder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "app/moments.h"
+#include "config/error.h"
 #include "lightfield/capture.h"
 #include "support/input_error.h"
 #include "support/temp_dir.h"
@@ -126,6 +128,36 @@ TEST_F(RecorderTest, NewCaptureLeavesTheOneBeforeComplete) {
   EXPECT_TRUE(light_field().perspectives().empty());
   const auto first = lightfield::load_capture(dir_ / "capture-0001");
   EXPECT_EQ(first.light_field.perspectives().size(), 1U);
+  EXPECT_EQ(first.points, world_.map().points());
+}
+
+TEST_F(RecorderTest, CaptureThatEndsIsWhereTheMapIsToTheLastBit) {
+  recorder_.begin(kSphere, world_.see_from({}), dir_ / "capture-0001");
+  record(0.0);
+  const Eigen::Vector3d little(0.001, 0.0, 0.0);
+  world_.move_keyframe(0, {Eigen::Quaterniond::Identity(), little});
+  recorder_.follow_map(world_.map(), 0.01);
+  EXPECT_EQ(light_field().perspectives().front().center().norm(), 0.0);
+  recorder_.begin(kSphere, world_.see_from({}), dir_ / "capture-0002");
+  const auto first = lightfield::load_capture(dir_ / "capture-0001");
+  EXPECT_TRUE(first.light_field.perspectives().front().center().isApprox(little, 1e-12));
+  EXPECT_TRUE(first.light_field.subject()->center.isApprox(kSphere.center + little, 1e-12));
+}
+
+TEST_F(RecorderTest, ErrorInTheLastWriteOfTheCaptureBeforeIsShownAndNotForgotten) {
+  recorder_.begin(kSphere, world_.see_from({}), dir_ / "capture-0001");
+  record(0.0);
+  std::filesystem::remove_all(dir_ / "capture-0001");
+  EXPECT_FALSE(recorder_.error());
+  for (const char* next : {"capture-0002", "capture-0003"}) {
+    recorder_.begin(kSphere, world_.see_from({}), dir_ / next);
+    record(0.0);
+    ASSERT_TRUE(recorder_.error());
+    EXPECT_THAT(*recorder_.error(), ::testing::HasSubstr("capture-0001"));
+  }
+  EXPECT_THROW(recorder_.finish(world_.map()), config::InputError);
+  EXPECT_EQ(lightfield::load_capture(dir_ / "capture-0002").points.size(), 1U);
+  EXPECT_EQ(lightfield::load_capture(dir_ / "capture-0003").points.size(), 1U);
 }
 
 }  // namespace

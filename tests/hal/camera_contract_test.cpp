@@ -245,6 +245,27 @@ TEST_P(PacedCamera, GivesTheLastFrameAfterALeapBeyondTheEnd) {
   EXPECT_EQ(camera_->state(), CameraState::Ended);
 }
 
+TEST(ReplayCamera, ALoopAtTheRateOfTheRecordingMissesNoFrameThroughRoundedStamps) {
+  constexpr int kManyFrames = 12;
+  const Recording recording(Recording::Medium::Images, kManyFrames);
+  std::string list;
+  for (int i = 0; i < kManyFrames; ++i) {
+    list += std::to_string(5.0 + i / 30.0) + " " + Recording::name(i) + "\n";  // microseconds
+  }
+  recording.dir().write("rgb.txt", list);
+  recording.dir().write("calib.txt", "30 31 15.5 11.5 0 0 0 0 32 24 30\n");
+  VirtualClock clock;
+  ReplayCamera camera(open_sequence(recording.folder()), clock, Pacing::Recorded);
+  camera.start();
+  for (int i = 0; i < kManyFrames; ++i) {
+    const auto frame = camera.take_newest();
+    ASSERT_TRUE(frame) << i;
+    EXPECT_EQ(frame->index, i);
+    clock.wait_until(clock.now_ns() + 33'333'333);
+  }
+  EXPECT_EQ(camera.counters().dropped, 0);
+}
+
 Backend replay(const char* name, Recording::Medium medium, Pacing pacing) {
   return {name, [=] { return std::make_unique<ReplayRig>(medium, pacing); }};
 }

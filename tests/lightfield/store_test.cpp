@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <future>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -123,6 +124,24 @@ TEST(Store, ThreadedWritesTheSameBytesAsInline) {
     EXPECT_EQ(files_in(folder / "threaded"), files_in(folder / "inline"));
   }
   EXPECT_EQ(files_in(folder / "threaded"), files_in(folder / "inline"));
+}
+
+TEST(Store, EndLeavesTheRestToItsThread) {
+  const TemporaryFolder folder;
+  std::promise<void> disk;
+  const std::shared_future<void> ready = disk.get_future().share();
+  const auto slow_disk = [ready](DurableFiles::Step, const fs::path& path) {
+    if (path.filename() == "points.ply") ready.wait();
+  };
+  Store store(folder / "c", 90, Writing::Threaded, DurableFiles(slow_disk));
+  act_out(store);
+  store.end();
+  EXPECT_FALSE(store.ended());
+  disk.set_value();
+  store.flush();
+  EXPECT_TRUE(store.ended());
+  EXPECT_EQ(load_capture(folder / "c").points.size(), 1U);
+  EXPECT_FALSE(fs::exists(folder / "c/images/000001.jpg")) << "wiped";
 }
 
 TEST(Store, WipedPictureStaysUntilTheEnd) {

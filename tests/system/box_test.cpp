@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/button_script.h"
@@ -35,14 +38,42 @@ struct TimedPress {
   Gesture gesture;
 };
 
+/// A camera that fails once time has come, as a replay does at a damaged picture.
+class FailingCamera : public hal::Camera {
+ public:
+  FailingCamera(std::unique_ptr<hal::Camera> camera, const hal::Clock& clock, double fails_at_s)
+      : camera_(std::move(camera)), clock_(clock), fails_at_s_(fails_at_s) {}
+
+  const config::CameraProfile& profile() const override { return camera_->profile(); }
+  void start() override { camera_->start(); }
+  void stop() override { camera_->stop(); }
+  hal::CameraState state() const override { return camera_->state(); }
+  hal::CameraCounters counters() const override { return camera_->counters(); }
+  void lock_exposure(bool locked) override { camera_->lock_exposure(locked); }
+  std::optional<hal::Frame> take_newest() override {
+    if (1e-9 * static_cast<double>(clock_.now_ns()) >= fails_at_s_) {
+      throw config::InputError("a damaged picture");
+    }
+    return camera_->take_newest();
+  }
+
+ private:
+  std::unique_ptr<hal::Camera> camera_;
+  const hal::Clock& clock_;
+  double fails_at_s_;
+};
+
 /// One box and its run; captures go into `captures`.
 class BoxRun {
  public:
-  BoxRun(const std::vector<TimedPress>& presses, const std::filesystem::path& captures) {
+  BoxRun(const std::vector<TimedPress>& presses, const std::filesystem::path& captures,
+         double camera_fails_at_s = 1e9) {
     config_.loop.rate_hz = 15.0;
     config_.capture.threshold_deg = 3.0;
     devices_.clock = std::make_unique<hal::VirtualClock>();
-    devices_.camera = std::make_unique<hal::SimCamera>(hal::load_scene(kScene), *devices_.clock);
+    devices_.camera = std::make_unique<FailingCamera>(
+        std::make_unique<hal::SimCamera>(hal::load_scene(kScene), *devices_.clock), *devices_.clock,
+        camera_fails_at_s);
     std::vector<hal::ButtonEvent> events;
     for (const TimedPress& press : presses) {
       for (const auto& event :
@@ -134,6 +165,15 @@ TEST(Box, TwoRunsLeaveTheSameBytes) {
       EXPECT_TRUE(files == first);
     }
   }
+}
+
+TEST(Box, WhatIsRecordedBeforeTheCameraFailsIsFinished) {
+  const TempDir dir;
+  BoxRun run(kCapture, dir.path(), 4.5);
+  EXPECT_THROW(run.loop().run_and_finish([] { return true; }), config::InputError);
+  const auto capture = lightfield::load_capture(dir / "capture-0001");
+  EXPECT_EQ(capture.light_field.perspectives().size(), run.views());
+  EXPECT_FALSE(capture.points.empty());
 }
 
 /// A file system with little room, while the object lives.

@@ -1,0 +1,58 @@
+#include "tracking/mapper.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "geometry/rotation.h"
+#include "tracking/textured_world.h"
+
+namespace lumibox::tracking {
+namespace {
+
+/// Two views of the wedge and points on it.
+InitialMap two_views() {
+  const geometry::Camera camera = testing::small_camera();
+  const geometry::Pose world_from_second(Eigen::Quaterniond::Identity(), {0.2, 0.0, 0.0});
+  InitialMap map;
+  map.first = std::make_shared<Pyramid>(testing::render_wedge(camera, {}), 3);
+  map.second = std::make_shared<Pyramid>(testing::render_wedge(camera, world_from_second), 3);
+  map.second_from_first = world_from_second.inverse();
+  for (int i = 0; i < 64; ++i) {
+    const double x = 0.2 * (i % 8 - 3.5);
+    const Eigen::Vector3d point(x, 0.15 * (i / 8 - 3.5), 2.0 + 0.8 * std::abs(x));
+    map.points.push_back(
+        {point, *camera.project(point), *camera.project(map.second_from_first * point), 0});
+  }
+  return map;
+}
+
+/// A keyframe that looks away from all points and has no picture: using it throws.
+KeyframeRequest broken_keyframe() {
+  const geometry::Pose turned(geometry::exp_so3({0.0, std::numbers::pi, 0.0}), {0.0, 0.0, 0.0});
+  const hal::Image no_picture(320, 240, /*channels=*/0);
+  return {1, turned, geometry::Vector6d::Zero(), std::make_shared<Pyramid>(no_picture, 1), {}, {}};
+}
+
+TEST(Mapper, AnExceptionEndsMappingAndLeavesTheMapThatWasThere) {
+  config::Tracking options;
+  options.pyramid_levels = 3;
+  for (const Mapping mapping : {Mapping::Lockstep, Mapping::Threaded}) {
+    Mapper mapper(testing::small_camera(), options, mapping);
+    mapper.start(two_views());
+    const auto before = mapper.view();
+    ASSERT_EQ(before->keyframes.size(), 2U);
+    EXPECT_FALSE(mapper.error());
+    mapper.request(broken_keyframe());
+    mapper.finish();
+    ASSERT_TRUE(mapper.error());
+    EXPECT_FALSE(mapper.error()->empty());
+    EXPECT_EQ(mapper.view(), before);
+    mapper.request({1, {}, geometry::Vector6d::Zero(), before->keyframes[1].pyramid, {}, {}});
+    mapper.finish();
+    EXPECT_EQ(mapper.view(), before) << "what an exception left half changed is not built upon";
+  }
+}
+
+}  // namespace
+}  // namespace lumibox::tracking

@@ -1,0 +1,67 @@
+#include "tracking/relocaliser.h"
+
+#include <gtest/gtest.h>
+
+#include "tracking/corners.h"
+#include "tracking/map.h"
+#include "tracking/textured_world.h"
+
+namespace lumibox::tracking {
+namespace {
+
+constexpr int kKeyframes = 12;
+
+config::Tracking options() {
+  config::Tracking o;
+  o.pyramid_levels = 3;
+  return o;
+}
+
+geometry::Pose place(double step) {
+  return {Eigen::Quaterniond::Identity(), {0.08 * step, 0.0, 0.0}};
+}
+
+std::shared_ptr<const Pyramid> picture_from(const geometry::Pose& world_from_camera) {
+  return std::make_shared<Pyramid>(
+      testing::render_wedge(testing::small_camera(), world_from_camera), 3);
+}
+
+/// A row of keyframes before the wedge, each with the points at its own corners.
+MapView row_of_keyframes() {
+  const geometry::Camera camera = testing::small_camera();
+  Map map;
+  for (int i = 0; i < kKeyframes; ++i) {
+    const KeyframeId id = map.add_keyframe(place(i), picture_from(place(i)));
+    for (const Corner& corner : detect_corners(*map.keyframe(id).pyramid, 20, 300)) {
+      const Eigen::Vector2d pixel = from_level(corner.pixel, corner.level);
+      const Eigen::Vector3d ray = camera.unproject(pixel)->homogeneous();
+      const double origin = place(i).translation.x();
+      for (const double slope : {0.8, -0.8}) {  // z = 2 + slope x, on its own side of x = 0
+        const double depth = (2.0 + slope * origin) / (1.0 - slope * ray.x());
+        const Eigen::Vector3d point = place(i) * Eigen::Vector3d(depth * ray);
+        if (depth > 0.0 && point.x() * slope >= 0.0) {
+          map.add_sighting(map.add_point(point), {id, pixel, corner.level});
+          break;
+        }
+      }
+    }
+  }
+  return map.view(1);
+}
+
+TEST(Relocaliser, FindsThePlaceAndDescribesOnlyKeyframesThatLookAlike) {
+  const MapView map = row_of_keyframes();
+  Relocaliser relocaliser(testing::small_camera(), options(), 1);
+  const Pyramid blank(hal::Image(320, 240, 1), 3);
+  EXPECT_FALSE(relocaliser.find(map, blank, SmallImage(blank)));
+  EXPECT_EQ(relocaliser.described(), 0);
+  const auto frame = picture_from(place(4.5));
+  const auto found = relocaliser.find(map, *frame, SmallImage(*frame));
+  ASSERT_TRUE(found);
+  EXPECT_LT((found->inverse().translation - place(4.5).translation).norm(), 0.02);
+  EXPECT_GT(relocaliser.described(), 0);
+  EXPECT_LE(relocaliser.described(), kKeyframes / 2) << "a lost frame must not take too long";
+}
+
+}  // namespace
+}  // namespace lumibox::tracking
