@@ -10,7 +10,10 @@ namespace {
 
 constexpr int kArea = kPatch * kPatch;
 constexpr double kCenter = 0.5 * (kPatch - 1);  // offset of the centre from the first pixel
-constexpr int kMinVariance = 16 * kArea;        // grey levels squared, summed: contrast of 4 levels
+constexpr float kGainUnit = 0.02F;  // of the gain's parameter: its column is then like the others
+constexpr float kMinGain = 0.1F;    // of the picture's contrast to the template's
+constexpr float kMaxGain = 10.0F;
+constexpr int kMinVariance = 16 * kArea;  // grey levels squared, summed: contrast of 4 levels
 
 float bilinear(const hal::Image& image, float x, float y) {
   const int x0 = static_cast<int>(x);
@@ -84,7 +87,7 @@ AlignmentSystem make_system(const PatchTemplate& patch) {
       const float* at = patch.values.data() + (v + 1) * PatchTemplate::kSide + u + 1;
       const Eigen::Vector4f j(0.5F * (at[1] - at[-1]),
                               0.5F * (at[PatchTemplate::kSide] - at[-PatchTemplate::kSide]), 1.0F,
-                              (at[0] - mean) * 0.02F);
+                              (at[0] - mean) * kGainUnit);
       system.jacobian[static_cast<std::size_t>(v * kPatch + u)] = j;
       hessian.noalias() += j * j.transpose();
     }
@@ -200,15 +203,19 @@ std::optional<Eigen::Vector2d> align_patch(const hal::Image& image, const PatchT
         const float value =
             w00 * static_cast<float>(above[u]) + w01 * static_cast<float>(above[u + 1]) +
             w10 * static_cast<float>(below[u]) + w11 * static_cast<float>(below[u + 1]);
-        const float predicted = wanted[u] + offset + gain * (wanted[u] - mean) * 0.02F;
+        const float predicted = wanted[u] + offset + gain * (wanted[u] - mean) * kGainUnit;
         gradient += system.jacobian[static_cast<std::size_t>(v * kPatch + u)] * (value - predicted);
       }
     }
     const Eigen::Vector4f step = system.inverse_hessian * gradient;
-    position.x() -= static_cast<double>(step.x());
-    position.y() -= static_cast<double>(step.y());
     offset += step.z();
     gain += step.w();
+    // The picture's gradient is the template's times the gain: without this an exposure that has
+    // doubled since the template makes every step twice as long as it should be.
+    const float contrast = 1.0F + kGainUnit * gain;
+    if (!(contrast > kMinGain && contrast < kMaxGain)) return std::nullopt;
+    position.x() -= static_cast<double>(step.x() / contrast);
+    position.y() -= static_cast<double>(step.y() / contrast);
     if (!((position - start).squaredNorm() < 4.0)) return std::nullopt;
     if (step.head<2>().squaredNorm() < 0.01F * 0.01F) return position;
   }

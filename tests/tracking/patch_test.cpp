@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "tracking/textured_world.h"
 
@@ -44,6 +45,20 @@ TEST(Patch, AlignmentIsSubPixelUnderGainAndOffset) {
     const auto aligned = align_patch(second, template_at(first, center), center);
     ASSERT_TRUE(aligned.has_value()) << shift;
     EXPECT_LT((*aligned - center - Eigen::Vector2d(shift, -shift)).norm(), 0.05) << shift;
+  }
+}
+
+// An exposure that recovers from the dark triples the contrast within a second. 0.1 px: the darker
+// picture is rounded to whole grey levels.
+TEST(Patch, AlignmentConvergesWhenTheContrastHasTripled) {
+  const hal::Image dark = noise_image(0.0, 0.0, 0.3, 5.0);
+  const hal::Image bright = noise_image(0.7, -0.6, 0.9, 20.0);
+  const Eigen::Vector2d center(40.5, 30.5);
+  for (const auto& [first, second, shift] :
+       {std::tuple{dark, bright, 1.0}, std::tuple{bright, dark, -1.0}}) {
+    const auto aligned = align_patch(second, template_at(first, center), center);
+    ASSERT_TRUE(aligned.has_value());
+    EXPECT_LT((*aligned - center - shift * Eigen::Vector2d(0.7, -0.6)).norm(), 0.1);
   }
 }
 
