@@ -52,7 +52,7 @@ double robust_sigma(const std::vector<Residual>& residuals) {
 }
 
 /// One step of iteratively reweighted least squares; returns the squared length of the twist.
-double improve(const std::vector<Residual>& residuals, PoseEstimate& estimate) {
+double improve(const std::vector<Residual>& residuals, Freedom freedom, PoseEstimate& estimate) {
   const double cutoff = kTukey * estimate.sigma_px;
   geometry::Matrix6d hessian = geometry::Matrix6d::Identity() * 1e-9;
   geometry::Vector6d gradient = geometry::Vector6d::Zero();
@@ -63,7 +63,12 @@ double improve(const std::vector<Residual>& residuals, PoseEstimate& estimate) {
     hessian.noalias() += weight * r.jacobian.transpose() * r.jacobian;
     gradient.noalias() += weight * r.jacobian.transpose() * r.error;
   }
-  const geometry::Vector6d step = hessian.ldlt().solve(gradient);
+  geometry::Vector6d step = geometry::Vector6d::Zero();
+  if (freedom == Freedom::All) {
+    step = hessian.ldlt().solve(gradient);
+  } else {
+    step.tail<3>() = hessian.bottomRightCorner<3, 3>().ldlt().solve(gradient.tail<3>());
+  }
   if (!step.allFinite()) return 0.0;
   estimate.pose.camera_from_world = geometry::exp_se3(step) * estimate.pose.camera_from_world;
   return step.squaredNorm();
@@ -72,7 +77,7 @@ double improve(const std::vector<Residual>& residuals, PoseEstimate& estimate) {
 }  // namespace
 
 PoseEstimate estimate_pose(const geometry::Camera& camera, std::span<Measurement> measurements,
-                           const geometry::FramePose& start, int iterations) {
+                           const geometry::FramePose& start, int iterations, Freedom freedom) {
   PoseEstimate estimate{start, 0, kMaxSigma};
   std::vector<Residual> residuals(measurements.size());
   for (int iteration = 0; iteration < iterations; ++iteration) {
@@ -80,7 +85,7 @@ PoseEstimate estimate_pose(const geometry::Camera& camera, std::span<Measurement
       residuals[i] = residual_of(camera, measurements[i], estimate.pose);
     }
     estimate.sigma_px = robust_sigma(residuals);
-    if (improve(residuals, estimate) < 1e-14) break;
+    if (improve(residuals, freedom, estimate) < 1e-14) break;
   }
   const double bound = std::min(kTukey * estimate.sigma_px, kMaxInlierError);
   for (Measurement& m : measurements) {

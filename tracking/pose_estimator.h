@@ -18,6 +18,11 @@ struct Measurement {
   bool inlier = false;                                 ///< set by estimate_pose
 };
 
+enum class Freedom {
+  All,
+  Rotation,  ///< the translation stays
+};
+
 struct PoseEstimate {
   geometry::FramePose pose;
   int inliers = 0;
@@ -32,6 +37,7 @@ struct PoseEstimate {
 /// picture cannot tell it from a scene that is sheared a little, and errors of both would grow
 /// together.
 PoseEstimate estimate_pose(const geometry::Camera& camera, std::span<Measurement> measurements,
-                           const geometry::FramePose& start, int iterations);
+                           const geometry::FramePose& start, int iterations,
+                           Freedom freedom = Freedom::All);
 
 }  // namespace lumibox::tracking

@@ -9,8 +9,9 @@
 #include "tracking/initialiser.h"
 #include "tracking/map_tracking.h"
 #include "tracking/mapper.h"
+#include "tracking/motion_model.h"
 #include "tracking/relocaliser.h"
-#include "tracking/rotation_prior.h"
+#include "tracking/turn_follower.h"
 
 namespace lumibox::tracking {
 namespace {
@@ -23,33 +24,9 @@ constexpr int kMinKeyframeGap = 4;             // frames
 constexpr std::size_t kMaxEvidence = 100000;   // about a hundred frames' worth
 constexpr double kRefreshShare = 0.5;          // of the nearest keyframe's points still measured
 constexpr double kMinRefreshBaseline = 0.012;  // of the depth: without a baseline, no new points
-constexpr double kMinIntervalS = 1e-3;         // against times that stand still
-constexpr double kMaxIntervalS = 0.2;          // a hand does not go on as it did for longer
-constexpr double kPriorAgreement = 1.5 * std::numbers::pi / 180.0;
+constexpr int kTurnTries = 15;                 // frames from one try to relocalise to the next
 
 }  // namespace
-
-const char* advice(TrackingReason reason) {
-  switch (reason) {
-    case TrackingReason::None:
-      return "";
-    case TrackingReason::TooLittleTexture:
-      return "too little texture: show more of the surroundings";
-    case TrackingReason::MoveSideways:
-      return "move sideways";
-    case TrackingReason::TurningOnly:
-      return "turning only: move sideways";
-    case TrackingReason::PlaneAmbiguous:
-      return "flat scene: keep moving";
-    case TrackingReason::TooDarkOrBlurred:
-      return "too dark or blurred";
-    case TrackingReason::TooFewPointsFound:
-      return "point back at the subject";
-    case TrackingReason::Relocalising:
-      return "lost: return to a place seen before";
-  }
-  return "";
-}
 
 class Tracker::Impl {
  public:
@@ -59,29 +36,27 @@ class Tracker::Impl {
         options_(options),
         initialiser_(camera, options, seed),
         mapper_(camera, options, mapping),
-        relocaliser_(camera, options, seed) {}
+        relocaliser_(camera, options, seed),
+        motion_(camera),
+        turn_(camera, options) {}
 
   TrackedFrame track(const hal::Image& gray, std::int64_t index, std::int64_t timestamp_ns) {
     TrackedFrame result;
     result.index = index;
     result.timestamp_ns = timestamp_ns;
     const auto frame = std::make_shared<const Pyramid>(gray, options_.pyramid_levels);
-    SmallImage small(*frame);
-    interval_s_ = std::clamp(1e-9 * static_cast<double>(timestamp_ns - last_timestamp_ns_),
-                             kMinIntervalS, kMaxIntervalS);
-    last_timestamp_ns_ = timestamp_ns;
+    motion_.next_frame(*frame, timestamp_ns);
     visible_.clear();
     if (!map_) {
       initialise(frame, result);
     } else {
       adopt_newest_map();
-      if (lost_) velocity_.reset();
-      const auto found = lost_ ? relocalise(*frame, small) : localise_from_motion(*frame, small);
-      judge(found, small, result);
+      jumped_ = false;
+      const auto found = lost_ ? relocalise(*frame) : localise_from_motion(*frame);
+      judge(found, frame, result);
       complete_keyframe(result.state == TrackingState::Good);
       if (result.state == TrackingState::Good) request_keyframe_if_new(frame, *found);
     }
-    last_small_ = std::move(small);
     return result;
   }
 
@@ -153,81 +128,89 @@ class Tracker::Impl {
     camera_from_world_ = (keyframe(anchor_).world_from_camera * anchor_from_camera_).inverse();
   }
 
-  /// Motion since the last frame: constant velocity, unless the picture says that the camera turned
-  /// otherwise; then the turn that the picture shows, without translation.
-  geometry::Pose predict_motion(const SmallImage& small) const {
-    const geometry::Pose steady =
-        geometry::exp_se3(interval_s_ * velocity_.value_or(geometry::Vector6d::Zero()));
-    const RotationPrior prior = estimate_rotation(camera_, last_small_, small);
-    const double disagreement =
-        geometry::log_so3(prior.current_from_last * steady.rotation.conjugate()).norm();
-    if (prior.residual < 1e8 && disagreement > kPriorAgreement) {
-      return {prior.current_from_last, Eigen::Vector3d::Zero()};
+  std::optional<Localisation> localise_from_motion(const Pyramid& frame) {
+    predicted_ = motion_.predict(camera_from_world_);
+    auto found = localise(camera_, options_, *map_, frame, predicted_);
+    if (found && camera_.profile().readout_s > 0.0) {
+      found->pose.readout_twist =
+          motion_.readout_twist(camera_from_world_, found->pose.camera_from_world);
+      const PoseEstimate estimate = estimate_pose(camera_, found->measurements, found->pose, 10);
+      found->pose = estimate.pose;
+      found->inliers = estimate.inliers;
     }
-    return steady;
-  }
-
-  geometry::FramePose predict(const SmallImage& small) const {
-    const geometry::Pose motion = predict_motion(small);
-    return {motion * camera_from_world_,
-            camera_.profile().readout_s / interval_s_ * geometry::log_se3(motion)};
-  }
-
-  std::optional<Localisation> localise_from_motion(const Pyramid& frame, const SmallImage& small) {
-    auto found = localise(camera_, options_, *map_, frame, predict(small));
-    if (found && camera_.profile().readout_s > 0.0) refine_readout(*found);
+    // While the camera is turned away the map may show by chance, or from elsewhere.
+    if (turn_.active() && !(found && is_good(*found))) {
+      return ++frames_turned_ % kTurnTries == 0 ? relocalise(frame) : std::nullopt;
+    }
     return found;
   }
 
-  /// The motion during this readout is that since the last frame, and as much change as there was
-  /// before: half an interval lies between the middle of that motion and this frame.
-  void refine_readout(Localisation& found) const {
-    const geometry::Vector6d mean_velocity =
-        geometry::log_se3(found.pose.camera_from_world * camera_from_world_.inverse()) /
-        interval_s_;
-    const geometry::Vector6d change = mean_velocity - velocity_.value_or(mean_velocity);
-    found.pose.readout_twist = camera_.profile().readout_s * (mean_velocity + 0.5 * change);
-    const PoseEstimate estimate = estimate_pose(camera_, found.measurements, found.pose, 10);
-    found.pose = estimate.pose;
-    found.inliers = estimate.inliers;
-  }
-
-  std::optional<Localisation> relocalise(const Pyramid& frame, const SmallImage& small) {
-    const auto pose = relocaliser_.find(*map_, frame, small);
+  std::optional<Localisation> relocalise(const Pyramid& frame) {
+    const auto pose = relocaliser_.find(*map_, frame, motion_.picture());
     if (!pose) return std::nullopt;
     auto found = localise(camera_, options_, *map_, frame, *pose);
     if (!found || found->inliers < kMinGoodInliers || found->found_share() < kVerifiedShare) {
       return std::nullopt;
     }
     lost_ = false;
-    bad_frames_ = 0;
+    jumped_ = true;
     ++relocalisations_;
-    camera_from_world_ = found->pose.camera_from_world;
     return found;
   }
 
+  bool is_good(const Localisation& found) const {
+    return found.inliers >= kMinGoodInliers && found.found_share() >= options_.lost_inlier_share;
+  }
+
   /// Decides from what was found how far the pose can be trusted, and remembers it.
-  void judge(const std::optional<Localisation>& found, const SmallImage& small,
+  void judge(const std::optional<Localisation>& found, const std::shared_ptr<const Pyramid>& frame,
              TrackedFrame& result) {
-    result.reason = small.contrast() < kMinContrast ? TrackingReason::TooDarkOrBlurred
-                    : lost_                         ? TrackingReason::Relocalising
-                                                    : TrackingReason::TooFewPointsFound;
+    result.reason = motion_.picture().contrast() < kMinContrast ? TrackingReason::TooDarkOrBlurred
+                    : lost_                                     ? TrackingReason::Relocalising
+                                                                : TrackingReason::TooFewPointsFound;
     const bool usable = found && found->inliers >= kMinInliers;
-    const bool good = usable && found->inliers >= kMinGoodInliers &&
-                      found->found_share() >= options_.lost_inlier_share;
+    const bool good = usable && is_good(*found);
+    if (!good && !lost_ && follow_turn(frame, result)) return;
+    turn_.stop();
     bad_frames_ = good ? 0 : bad_frames_ + 1;
     if (bad_frames_ >= options_.lost_after_frames) lost_ = true;
     if (lost_ || !usable) {
       result.state = lost_ ? TrackingState::Lost : TrackingState::Poor;
-      velocity_.reset();
+      motion_.interrupted();
+      last_good_.reset();
       return;
     }
-    velocity_ = geometry::log_se3(found->pose.camera_from_world * camera_from_world_.inverse()) /
-                interval_s_;
+    if (jumped_) {
+      motion_.interrupted();
+    } else {
+      motion_.moved(camera_from_world_, found->pose.camera_from_world);
+    }
     camera_from_world_ = found->pose.camera_from_world;
     choose_anchor();
     gather_evidence(*found);
+    last_good_ = good ? frame : nullptr;
     report_pose(good ? TrackingState::Good : TrackingState::Poor, found->inliers, result);
+  }
+
+  /// Where the map no longer shows, a turn on the spot may explain the picture: the pose then is
+  /// held, turned, and not good enough to record with. False if it does not.
+  bool follow_turn(const std::shared_ptr<const Pyramid>& frame, TrackedFrame& result) {
+    if (!turn_.active()) {
+      if (!last_good_) return false;
+      frames_turned_ = 0;
+      turn_.start(last_good_, camera_from_world_.rotation);
+    }
+    const auto turned = turn_.follow(frame, predicted_.camera_from_world.rotation);
+    if (!turned) return false;
+    const Eigen::Vector3d center = camera_from_world_.inverse().translation;
+    const geometry::Pose held(*turned, -(*turned * center));
+    motion_.moved(camera_from_world_, held);
+    camera_from_world_ = held;
+    anchor_from_camera_ = keyframe(anchor_).camera_from_world * held.inverse();
+    bad_frames_ = 0;
+    report_pose(TrackingState::Poor, 0, result);
+    result.reason = TrackingReason::TurningOnly;
+    return true;
   }
 
   void report_pose(TrackingState state, int measurements, TrackedFrame& result) const {
@@ -302,10 +285,11 @@ class Tracker::Impl {
         request.sightings.emplace_back(map_->points[m.point].id, Sighting{-1, m.pixel, m.level});
     }
     frames_since_keyframe_ = 0;
-    if (camera_.profile().readout_s == 0.0) {
+    if (camera_.profile().readout_s == 0.0 || !motion_.velocity()) {
       mapper_.request(std::move(request));
     } else {
-      pending_.emplace(PendingKeyframe{std::move(request), found, *velocity_, interval_s_});
+      pending_.emplace(
+          PendingKeyframe{std::move(request), found, *motion_.velocity(), motion_.interval_s()});
     }
   }
 
@@ -315,9 +299,10 @@ class Tracker::Impl {
     if (!pending_) return;
     PendingKeyframe p = std::move(*pending_);
     pending_.reset();
-    if (!has_next || !velocity_) return;
+    if (!has_next || !motion_.velocity()) return;
     const geometry::Vector6d velocity =
-        (p.interval_s * p.velocity + interval_s_ * *velocity_) / (p.interval_s + interval_s_);
+        (p.interval_s * p.velocity + motion_.interval_s() * *motion_.velocity()) /
+        (p.interval_s + motion_.interval_s());
     p.found.pose.readout_twist = camera_.profile().readout_s * velocity;
     const PoseEstimate estimate = estimate_pose(camera_, p.found.measurements, p.found.pose, 10);
     p.request.reference_from_camera = p.request.reference_from_camera *
@@ -332,16 +317,19 @@ class Tracker::Impl {
   Initialiser initialiser_;
   Mapper mapper_;
   Relocaliser relocaliser_;
+  MotionModel motion_;
+  TurnFollower turn_;
 
-  std::shared_ptr<const MapView> map_;          // the copy in use; null before initialisation
-  geometry::Pose camera_from_world_;            // of the last frame with a pose
-  std::optional<geometry::Vector6d> velocity_;  // twist per second from the left, to the last frame
-  double interval_s_ = 0.0;                     // since the last frame
+  std::shared_ptr<const MapView> map_;  // the copy in use; null before initialisation
+  geometry::Pose camera_from_world_;    // of the last frame with a pose
   std::int64_t last_timestamp_ns_ = 0;
-  SmallImage last_small_;
+  geometry::FramePose predicted_;             // of the present frame
+  std::shared_ptr<const Pyramid> last_good_;  // the last frame, if its pose was good
+  int frames_turned_ = 0;                     // since the map last showed
   KeyframeId anchor_ = -1;
   geometry::Pose anchor_from_camera_;
   bool lost_ = false;
+  bool jumped_ = false;  // this frame was located anew
   int bad_frames_ = 0;
   int frames_since_keyframe_ = 0;
 

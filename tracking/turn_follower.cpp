@@ -1,0 +1,97 @@
+#include "tracking/turn_follower.h"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "tracking/corners.h"
+#include "tracking/frame_search.h"
+#include "tracking/pose_estimator.h"
+
+namespace lumibox::tracking {
+namespace {
+
+constexpr int kCorners = 300;    // per picture of the panorama
+constexpr int kMaxPoints = 200;  // looked for in one picture
+constexpr int kCoarsePoints = 60;
+constexpr double kCoarseRadius = 6.0;  // pixels of level 2
+constexpr double kFineRadius = 4.0;    // pixels
+constexpr int kIterations = 10;
+constexpr int kMinInliers = 25;                           // fewer may agree by chance
+constexpr double kMinShare = 0.4;                         // of the points looked for
+constexpr double kStep = 8.0 * std::numbers::pi / 180.0;  // of the turn, to the next picture
+constexpr int kCell = 32;                                 // pixels, with one corner at most
+
+/// Cells of the picture that show a point of the panorama already.
+std::vector<bool> occupied_cells(const geometry::Camera& camera, const MapView& panorama,
+                                 const geometry::Pose& camera_from_world) {
+  const int columns = camera.width() / kCell + 1;
+  std::vector<bool> occupied(static_cast<std::size_t>(columns * (camera.height() / kCell + 1)));
+  for (const MapView::Point& point : panorama.points) {
+    const auto pixel = camera.project(camera_from_world * point.position);
+    if (!pixel || !camera.contains(*pixel)) continue;
+    occupied[static_cast<std::size_t>(static_cast<int>(pixel->y()) / kCell * columns +
+                                      static_cast<int>(pixel->x()) / kCell)] = true;
+  }
+  return occupied;
+}
+
+}  // namespace
+
+TurnFollower::TurnFollower(const geometry::Camera& camera, const config::Tracking& options)
+    : camera_(camera), options_(options) {}
+
+void TurnFollower::start(const std::shared_ptr<const Pyramid>& picture,
+                         const Eigen::Quaterniond& camera_from_world) {
+  panorama_ = {};
+  extend(picture, camera_from_world);
+}
+
+void TurnFollower::extend(const std::shared_ptr<const Pyramid>& picture,
+                          const Eigen::Quaterniond& camera_from_world) {
+  const geometry::Pose pose(camera_from_world, Eigen::Vector3d::Zero());
+  std::vector<bool> occupied = occupied_cells(camera_, panorama_, pose);
+  const int columns = camera_.width() / kCell + 1;
+  const auto keyframe = static_cast<KeyframeId>(panorama_.keyframes.size());
+  int added = 0;
+  for (const Corner& corner : detect_corners(*picture, options_.fast_threshold, kCorners)) {
+    const Eigen::Vector2d pixel = from_level(corner.pixel, corner.level);
+    const auto ray = camera_.unproject(pixel);
+    if (!ray) continue;
+    const auto cell = static_cast<std::size_t>(static_cast<int>(pixel.y()) / kCell * columns +
+                                               static_cast<int>(pixel.x()) / kCell);
+    if (occupied[cell]) continue;
+    occupied[cell] = true;
+    panorama_.points.push_back({static_cast<PointId>(panorama_.points.size()),
+                                pose.inverse() * ray->homogeneous().normalized(),
+                                static_cast<std::uint32_t>(panorama_.sightings.size()), 1});
+    panorama_.sightings.push_back({keyframe, pixel, corner.level});
+    ++added;
+  }
+  panorama_.keyframes.push_back({pose.inverse(), pose, picture, 1.0, added});
+}
+
+std::optional<Eigen::Quaterniond> TurnFollower::follow(
+    const std::shared_ptr<const Pyramid>& picture, const Eigen::Quaterniond& predicted) {
+  const geometry::Pose start(predicted, Eigen::Vector3d::Zero());
+  const int coarse_level = std::min(2, picture->levels() - 1);
+  SearchResult coarse =
+      search_map(camera_, panorama_, *picture, start, {coarse_level, kCoarseRadius, kCoarsePoints});
+  const PoseEstimate rough =
+      estimate_pose(camera_, coarse.measurements, start, kIterations, Freedom::Rotation);
+  SearchResult fine =
+      search_map(camera_, panorama_, *picture, rough.pose, {0, kFineRadius, kMaxPoints});
+  const PoseEstimate estimate =
+      estimate_pose(camera_, fine.measurements, rough.pose, kIterations, Freedom::Rotation);
+  if (estimate.inliers < kMinInliers ||
+      estimate.inliers < kMinShare * static_cast<double>(fine.attempted.size())) {
+    return std::nullopt;
+  }
+  const Eigen::Quaterniond turned = estimate.pose.camera_from_world.rotation;
+  if (panorama_.keyframes.back().camera_from_world.rotation.angularDistance(turned) > kStep) {
+    extend(picture, turned);
+  }
+  return turned;
+}
+
+}  // namespace lumibox::tracking
