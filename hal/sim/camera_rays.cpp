@@ -1,7 +1,10 @@
 #include "hal/sim/camera_rays.h"
 
+#include <bit>
 #include <cmath>
 #include <limits>
+
+#include "hal/sim/newer_processors.h"
 
 namespace lumibox::hal::sim {
 
@@ -21,29 +24,31 @@ CameraRays::CameraRays(const geometry::Camera& camera)
   }
 }
 
+LUMIBOX_FOR_NEWER_PROCESSORS
 int CameraRays::fill(const Tile& tile, const Eigen::Matrix3f& world_from_camera,
                      const Eigen::Vector3f& origin, RayPacket& packet) const {
   const Eigen::Matrix3f& r = world_from_camera;
-  RTCRay16& ray = packet.rays.ray;
+  RTCRay8& ray = packet.rays.ray;
+  const int column_bits = std::countr_zero(static_cast<unsigned>(tile.columns));
   int valid = 0;
-  for (int row = 0, i = 0; row < tile.rows; ++row) {
-    const std::ptrdiff_t first = (tile.y + row) * stride_ + tile.x;
-    for (int column = 0; column < tile.columns; ++column, ++i) {
-      const float x = bearing_x_[static_cast<std::size_t>(first + column)];
-      const float y = bearing_y_[static_cast<std::size_t>(first + column)];
-      packet.valid[i] = std::isnan(x) ? 0 : -1;
-      valid += std::isnan(x) ? 0 : 1;
-      ray.org_x[i] = origin.x();
-      ray.org_y[i] = origin.y();
-      ray.org_z[i] = origin.z();
-      ray.dir_x[i] = r(0, 0) * x + r(0, 1) * y + r(0, 2);
-      ray.dir_y[i] = r(1, 0) * x + r(1, 1) * y + r(1, 2);
-      ray.dir_z[i] = r(2, 0) * x + r(2, 1) * y + r(2, 2);
-      ray.tnear[i] = 0.0f;
-      ray.tfar[i] = std::numeric_limits<float>::infinity();
-      ray.mask[i] = ~0u;
-      packet.rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    }
+  for (int i = 0; i < RayPacket::kSize; ++i) {
+    const int row = i >> column_bits;
+    const int column = i & (tile.columns - 1);
+    const auto pixel = static_cast<std::size_t>((tile.y + row) * stride_ + tile.x + column);
+    const float x = bearing_x_[pixel];
+    const float y = bearing_y_[pixel];
+    packet.valid[i] = -static_cast<int>(!std::isnan(x));
+    valid -= packet.valid[i];
+    ray.org_x[i] = origin.x();
+    ray.org_y[i] = origin.y();
+    ray.org_z[i] = origin.z();
+    ray.dir_x[i] = r(0, 0) * x + r(0, 1) * y + r(0, 2);
+    ray.dir_y[i] = r(1, 0) * x + r(1, 1) * y + r(1, 2);
+    ray.dir_z[i] = r(2, 0) * x + r(2, 1) * y + r(2, 2);
+    ray.tnear[i] = 0.0f;
+    ray.tfar[i] = std::numeric_limits<float>::infinity();
+    ray.mask[i] = ~0u;
+    packet.rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
   }
   return valid;
 }
