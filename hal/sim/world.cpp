@@ -134,11 +134,11 @@ void World::add_mesh(const ObjectSpec& spec, std::shared_ptr<const Motion> motio
       rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                               sizeof(Eigen::Vector3f), mesh.positions.size());
   std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<Eigen::Vector3f*>(positions));
-  void* indices =
+  body.facets = facets(mesh);
+  auto* corners = static_cast<std::array<std::uint32_t, 3>*>(
       rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              sizeof(mesh.triangles.front()), mesh.triangles.size());
-  std::copy(mesh.triangles.begin(), mesh.triangles.end(),
-            static_cast<std::array<std::uint32_t, 3>*>(indices));
+                              sizeof(body.facets[0].corners), body.facets.size()));
+  for (const Facet& facet : body.facets) *corners++ = facet.corners;
   rtcCommitGeometry(geometry.get());
   rtcAttachGeometryByID(motion ? moving_.get() : fixed_.get(), geometry.get(), id);
   if (motion) movers_.push_back({id, mesh.positions, std::move(motion), {}});
@@ -187,9 +187,10 @@ bool World::occluded1(RTCRay& ray) const {
 Eigen::Vector3f World::normal(const RTCHit& hit, const Eigen::Vector3f& point) const {
   const Body& body = *bodies_[hit.geomID];
   if (body.is_exact_sphere) return (point - body.center).normalized();
-  const auto& [a, b, c] = body.triangles[hit.primID];
+  const auto [triangle, u, v] = body.facets[hit.primID].spot(hit.u, hit.v);
+  const auto& [a, b, c] = body.triangles[triangle];
   const Eigen::Vector3f at_rest =
-      (1.0f - hit.u - hit.v) * body.normals[a] + hit.u * body.normals[b] + hit.v * body.normals[c];
+      (1.0f - u - v) * body.normals[a] + u * body.normals[b] + v * body.normals[c];
   return (body.world_from_rest * at_rest).normalized();
 }
 

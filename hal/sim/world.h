@@ -35,10 +35,11 @@ struct alignas(64) SurfaceTriangle {
 /// One object: what Embree does not know about it.
 struct Body {
   std::vector<Eigen::Vector3f> positions;  ///< at rest; only until the light is baked
-  std::vector<SurfaceTriangle> surface;
-  std::vector<Eigen::Vector3f> normals;  ///< of the vertices, where the scene file put the object
+  std::vector<SurfaceTriangle> surface;    ///< per triangle
+  std::vector<Eigen::Vector3f> normals;    ///< of the vertices, where the scene file put the object
   Eigen::Matrix3f world_from_rest = Eigen::Matrix3f::Identity();  ///< turns normals with a mover
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Facet> facets;               ///< by Embree's primitive id
   std::shared_ptr<const Texture> texture;  ///< none: white
   float mirror = 0.0f;
   float glass_ior = 0.0f;  ///< 0: not glass
