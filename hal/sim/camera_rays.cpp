@@ -1,7 +1,11 @@
 #include "hal/sim/camera_rays.h"
 
+#include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
+
+#include "hal/sim/newer_processors.h"
 
 namespace lumibox::hal::sim {
 
@@ -21,29 +25,36 @@ CameraRays::CameraRays(const geometry::Camera& camera)
   }
 }
 
+LUMIBOX_FOR_NEWER_PROCESSORS
 int CameraRays::fill(const Tile& tile, const Eigen::Matrix3f& world_from_camera,
                      const Eigen::Vector3f& origin, RayPacket& packet) const {
-  const Eigen::Matrix3f& r = world_from_camera;
-  RTCRay16& ray = packet.rays.ray;
+  const Eigen::Matrix3f r = world_from_camera;
+  const Eigen::Vector3f start = origin;
+  const int column_bits = std::countr_zero(static_cast<unsigned>(tile.columns));
+  std::array<float, RayPacket::kSize> x;
+  std::array<float, RayPacket::kSize> y;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const int row = static_cast<int>(i) >> column_bits;
+    const int column = static_cast<int>(i) & (tile.columns - 1);
+    const auto pixel = static_cast<std::size_t>((tile.y + row) * stride_ + tile.x + column);
+    x[i] = bearing_x_[pixel];
+    y[i] = bearing_y_[pixel];
+  }
+  RTCRay8& ray = packet.rays.ray;
   int valid = 0;
-  for (int row = 0, i = 0; row < tile.rows; ++row) {
-    const std::ptrdiff_t first = (tile.y + row) * stride_ + tile.x;
-    for (int column = 0; column < tile.columns; ++column, ++i) {
-      const float x = bearing_x_[static_cast<std::size_t>(first + column)];
-      const float y = bearing_y_[static_cast<std::size_t>(first + column)];
-      packet.valid[i] = std::isnan(x) ? 0 : -1;
-      valid += std::isnan(x) ? 0 : 1;
-      ray.org_x[i] = origin.x();
-      ray.org_y[i] = origin.y();
-      ray.org_z[i] = origin.z();
-      ray.dir_x[i] = r(0, 0) * x + r(0, 1) * y + r(0, 2);
-      ray.dir_y[i] = r(1, 0) * x + r(1, 1) * y + r(1, 2);
-      ray.dir_z[i] = r(2, 0) * x + r(2, 1) * y + r(2, 2);
-      ray.tnear[i] = 0.0f;
-      ray.tfar[i] = std::numeric_limits<float>::infinity();
-      ray.mask[i] = ~0u;
-      packet.rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    }
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    packet.valid[i] = -static_cast<int>(!std::isnan(x[i]));
+    valid += static_cast<int>(!std::isnan(x[i]));
+    ray.org_x[i] = start.x();
+    ray.org_y[i] = start.y();
+    ray.org_z[i] = start.z();
+    ray.dir_x[i] = r(0, 0) * x[i] + r(0, 1) * y[i] + r(0, 2);
+    ray.dir_y[i] = r(1, 0) * x[i] + r(1, 1) * y[i] + r(1, 2);
+    ray.dir_z[i] = r(2, 0) * x[i] + r(2, 1) * y[i] + r(2, 2);
+    ray.tnear[i] = 0.0f;
+    ray.tfar[i] = std::numeric_limits<float>::infinity();
+    ray.mask[i] = ~0u;
+    packet.rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
   }
   return valid;
 }

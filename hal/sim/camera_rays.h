@@ -9,18 +9,19 @@
 
 namespace lumibox::hal::sim {
 
-/// Sixteen rays, Embree's widest packet; valid is -1 or 0 per ray.
+/// Eight rays, which is what Embree follows together in AVX2 registers; valid is -1 or 0 per ray.
 struct RayPacket {
-  static constexpr int kSize = 16;
+  static constexpr int kSize = 8;
   alignas(64) int valid[kSize];
-  alignas(64) RTCRayHit16 rays;
+  alignas(64) RTCRayHit8 rays;
 };
 
 /// The rays of a camera's pixels through its exact model, one packet per tile of neighbours: they
 /// meet the same surfaces, which is what makes packets quick.
 class CameraRays {
  public:
-  /// Pixels [x, x + columns) x [y, y + rows); columns * rows is RayPacket::kSize. Columns may reach
+  /// Pixels [x, x + columns) x [y, y + rows); columns * rows is RayPacket::kSize and
+  /// columns a power of two. Columns may reach
   /// beyond the picture's edge.
   struct Tile {
     int x;

@@ -20,7 +20,38 @@ Corner corner_of(const Eigen::Vector3f& p) {
   return {micrometres(p.x()), micrometres(p.y()), micrometres(p.z())};
 }
 
+void add_halves(const Mesh::Rectangle& rectangle, std::vector<Facet>& facets) {
+  const std::uint32_t first = rectangle.first_position;
+  const std::uint32_t right = first + rectangle.columns;
+  const std::uint32_t left_above = first + rectangle.rows * (rectangle.columns + 1);
+  const std::uint32_t right_above = left_above + rectangle.columns;
+  Facet half{{first, right, right_above}, static_cast<std::int32_t>(rectangle.first_triangle)};
+  half.columns = static_cast<std::int32_t>(rectangle.columns);
+  half.rows = static_cast<std::int32_t>(rectangle.rows);
+  half.triangles_per_cell = 2;
+  facets.push_back(half);
+  half.corners = {first, right_above, left_above};
+  half.upper_left = 1.0f;
+  facets.push_back(half);
+}
+
 }  // namespace
+
+std::vector<Facet> facets(const Mesh& mesh) {
+  std::vector<Facet> result;
+  std::uint32_t next = 0;
+  const auto add_triangles_before = [&](std::size_t end) {
+    for (; next < end; ++next)
+      result.push_back({mesh.triangles[next], static_cast<std::int32_t>(next)});
+  };
+  for (const Mesh::Rectangle& rectangle : mesh.rectangles) {
+    add_triangles_before(rectangle.first_triangle);
+    add_halves(rectangle, result);
+    next += 2 * rectangle.columns * rectangle.rows;
+  }
+  add_triangles_before(mesh.triangles.size());
+  return result;
+}
 
 void smooth_normals(Mesh& mesh) {
   std::map<Corner, Eigen::Vector3f> sums;
@@ -43,6 +74,7 @@ void smooth_normals(Mesh& mesh) {
 
 void displace(Mesh& mesh, const Displacement& displacement) {
   if (displacement.amplitude_m <= 0.0) return;
+  mesh.rectangles.clear();  // no longer flat
   smooth_normals(mesh);
   constexpr int kOctaves = 4;
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {

@@ -50,6 +50,7 @@ int cells(double edge, double longest, int segments) {
 void add_rectangle(Mesh& mesh, const Eigen::Vector3f& corner, const Eigen::Vector3f& along_u,
                    const Eigen::Vector3f& along_v, int nu, int nv) {
   const std::size_t first = mesh.positions.size();
+  const std::size_t first_triangle = mesh.triangles.size();
   const float width = along_u.norm();
   const float height = along_v.norm();
   add_grid(
@@ -59,6 +60,12 @@ void add_rectangle(Mesh& mesh, const Eigen::Vector3f& corner, const Eigen::Vecto
       [&](float s, float t) { return Eigen::Vector2f(s * width, (1.0f - t) * height); });
   const Eigen::Vector3f normal = along_u.cross(along_v).normalized();
   std::fill(mesh.normals.begin() + static_cast<std::ptrdiff_t>(first), mesh.normals.end(), normal);
+  const auto columns = static_cast<std::uint32_t>(nu);
+  const auto rows = static_cast<std::uint32_t>(nv);
+  // A rectangle too small for its cells has lost some.
+  if (mesh.triangles.size() - first_triangle != std::size_t{2} * columns * rows) return;
+  mesh.rectangles.push_back({static_cast<std::uint32_t>(first),
+                             static_cast<std::uint32_t>(first_triangle), columns, rows});
 }
 
 /// In the plane z = 0, facing +z, centred.

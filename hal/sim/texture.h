@@ -1,10 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "hal/sim/color.h"
-#include "hal/sim/float4.h"
 
 namespace lumibox::hal::sim {
 
@@ -12,39 +12,61 @@ namespace lumibox::hal::sim {
 /// detail finer than the pixel that asks (Williams, "Pyramidal parametrics", 1983).
 class Texture {
  public:
+  /// Look-ups are made eight at a time, a vector register full.
+  static constexpr int kLanes = 8;
+  using Floats = std::array<float, kLanes>;
+
+  struct Places {
+    alignas(32) Floats u{};          ///< tiles
+    alignas(32) Floats v{};          ///< tiles
+    alignas(32) Floats footprint{};  ///< width of the asking pixel in tiles
+  };
+
+  /// Linear light.
+  struct Colors {
+    alignas(32) Floats red;
+    alignas(32) Floats green;
+    alignas(32) Floats blue;
+  };
+
   /// `base` is in linear light; width and height must be powers of two.
   explicit Texture(const LinearImage& base);
 
-  /// Linear light at (u, v), in tiles; `footprint` is the width of the asking pixel in tiles. The
-  /// place is rounded to 1/256 of a texel, and far from the origin to what a float can tell apart.
-  Float4 sample(float u, float v, float footprint) const;
+  /// A place is rounded to 1/256 of a texel, and far from the origin to what a float can tell
+  /// apart.
+  Colors sample(const Places& places) const;
 
  private:
-  /// Linear light, 65535 at 1: a twentieth of an 8-bit level even at black, where the sRGB curve
-  /// is steepest. The fourth value only makes a texel as wide as a vector register wants it.
-  using Texel = std::uint16_t __attribute__((vector_size(8)));
+  using Ints = std::array<std::int32_t, kLanes>;
 
-  /// Texels in blocks of four by four, 128 bytes each: neighbours in the picture are
-  /// neighbours in memory, whichever way the surface is turned.
-  struct Level {
-    std::uint32_t width = 1;
-    std::uint32_t height = 1;
-    std::uint32_t blocks_per_row = 1;
-    std::vector<Texel> texels;
+  /// Ten bits each of the square roots of red, green and blue: as fine as a quarter of an 8-bit
+  /// sRGB level, and cheap to undo.
+  using Texel = std::uint32_t;
+  static constexpr int kBits = 10;
+  static constexpr std::uint32_t kMost = (1u << kBits) - 1;
 
-    /// The texel (x, y) lies at row_place(y) + column_place(x); both are within the level.
-    std::uint32_t row_place(std::uint32_t y) const {
-      return ((y >> 2) * blocks_per_row) << 4 | (y & 3) << 2;
-    }
-    static std::uint32_t column_place(std::uint32_t x) { return (x >> 2) << 4 | (x & 3); }
+  /// Steps that a texel is divided into: a whole number of them splits into texel and fraction
+  /// without a branch.
+  static constexpr int kStepBits = 8;
+
+  /// A place among the texels of a level: the corners around it and its share of the way between.
+  struct Corners {
+    alignas(32) std::array<Ints, 4> texel;  ///< upper left, upper right, lower left, lower right
+    alignas(32) Floats x;
+    alignas(32) Floats y;
   };
 
-  static Level level_of(const LinearImage& image);
-  static Float4 floats(const Texel& texel);
-  static Float4 bilinear(const Level& level, float u, float v);
+  void add_level(const LinearImage& image);
+  Corners corners(const Places& places, const Ints& level) const;
+  Colors bilinear(const Places& places, const Ints& level) const;
 
-  std::vector<Level> levels_;
-  float base_texels_ = 1.0f;  ///< texels per tile at level 0, the denser direction
+  /// All levels one after the other, each in blocks of four by four texels, 64 bytes each:
+  /// neighbours in the picture are neighbours in memory, whichever way the surface is turned.
+  std::vector<Texel> texels_;
+  std::array<std::int32_t, 32> first_{};  ///< texel of each level
+  std::int32_t last_level_ = -1;
+  float width_;   ///< of level 0
+  float height_;  ///< of level 0
 };
 
 }  // namespace lumibox::hal::sim

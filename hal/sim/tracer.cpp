@@ -6,12 +6,7 @@
 #include <limits>
 
 #include "hal/sim/light_bake.h"
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define LUMIBOX_FOR_NEWER_PROCESSORS [[gnu::target_clones("default", "avx2"), gnu::flatten]]
-#else
-#define LUMIBOX_FOR_NEWER_PROCESSORS
-#endif
+#include "hal/sim/newer_processors.h"
 
 namespace lumibox::hal::sim {
 namespace {
@@ -34,11 +29,13 @@ float fresnel(float cos_in, float cos_out, float ior) {
 float slant(float nx, float ny, float nz, float dx, float dy, float dz) {
   const float cosine = std::abs(nx * dx + ny * dy + nz * dz) /
                        std::sqrt((nx * nx + ny * ny + nz * nz) * (dx * dx + dy * dy + dz * dz));
-  return 1.0f / std::sqrt(std::max(cosine, 0.05f));
+  // The larger of the cosine and a twentieth, without a branch that would keep eight apart.
+  const float beyond = cosine - 0.05f;
+  return 1.0f / std::sqrt(0.05f + 0.5f * (beyond + std::abs(beyond)));
 }
 
 /// Pixel widths on the surfaces that a packet from one point met.
-void surface_widths(const RTCRayHit16& p, float spread, float* widths) {
+void surface_widths(const RTCRayHit8& p, float spread, float* widths) {
   for (int i = 0; i < RayPacket::kSize; ++i) {
     widths[i] = spread * p.ray.tfar[i] *
                 slant(p.hit.Ng_x[i], p.hit.Ng_y[i], p.hit.Ng_z[i], p.ray.dir_x[i], p.ray.dir_y[i],
@@ -46,7 +43,7 @@ void surface_widths(const RTCRayHit16& p, float spread, float* widths) {
   }
 }
 
-RTCHit hit_of(const RTCHit16& hits, int i) {
+RTCHit hit_of(const RTCHit8& hits, std::size_t i) {
   RTCHit hit{};
   hit.Ng_x = hits.Ng_x[i];
   hit.Ng_y = hits.Ng_y[i];
@@ -73,13 +70,11 @@ Tracer::Tracer(const World& world, const SceneSpec& spec, const geometry::Camera
   }
 }
 
-// Compiled twice, with what it calls: the wider registers of newer processors save a tenth. Neither
-// contracts products and sums, so both make the same picture.
 LUMIBOX_FOR_NEWER_PROCESSORS
 void Tracer::trace_rows(const geometry::Pose& world_from_camera, int begin, int end,
                         LinearImage& image) {
-  // A rolling shutter asks row by row; otherwise square tiles keep a packet's rays together.
-  const int rows = (end - begin) % 4 == 0 ? 4 : 1;
+  // A rolling shutter asks row by row; otherwise compact tiles keep a packet's rays together.
+  const int rows = (end - begin) % 2 == 0 ? 2 : 1;
   const int columns = RayPacket::kSize / rows;
   const Eigen::Matrix3f rotation = world_from_camera.matrix3().cast<float>();
   const Eigen::Vector3f origin = world_from_camera.translation.cast<float>();
@@ -88,7 +83,7 @@ void Tracer::trace_rows(const geometry::Pose& world_from_camera, int begin, int 
     for (int x = 0; x < width_; x += columns) {
       const CameraRays::Tile tile{x, y, columns, rows};
       rays_.camera += camera_rays_.fill(tile, rotation, origin, packet);
-      world_.intersect16(packet);
+      world_.intersect8(packet);
       shade_tile(tile, packet, origin, image);
     }
   }
@@ -98,24 +93,32 @@ void Tracer::shade_tile(const CameraRays::Tile& tile, const RayPacket& packet,
                         const Eigen::Vector3f& origin, LinearImage& image) {
   alignas(64) float widths[RayPacket::kSize];
   surface_widths(packet.rays, pixel_spread_, widths);
-  const RTCRay16& rays = packet.rays.ray;
-  for (int row = 0, i = 0; row < tile.rows; ++row) {
+  const RTCRay8& rays = packet.rays.ray;
+  MattePoints points;
+  for (std::size_t i = 0; i < RayPacket::kSize; ++i) {
+    points.light[i] = Float4{};
+    if (packet.valid[i] == 0) continue;
+    const RTCHit hit = hit_of(packet.rays.hit, i);
+    const Cone cone{origin, {rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]}, 0.0f, pixel_spread_};
+    if (is_matte(hit.geomID)) {
+      meet(cone, hit, rays.tfar[i], widths[i], i, points);
+    } else {
+      points.light[i] = to_float4(shade(cone, hit, rays.tfar[i]));
+    }
+  }
+  paint(points);
+  for (int row = 0; row < tile.rows; ++row) {
     Color* pixels = image.row(tile.y + row) + tile.x;
-    for (int column = 0; column < tile.columns; ++column, ++i) {
-      if (packet.valid[i] == 0) {
-        if (tile.x + column < width_) pixels[column] = Color::Zero();
-        continue;
-      }
-      const RTCHit hit = hit_of(packet.rays.hit, i);
-      const Cone cone{origin, {rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]}, 0.0f, pixel_spread_};
-      pixels[column] = is_matte(hit) ? matte(cone, hit, rays.tfar[i], widths[i])
-                                     : shade(cone, hit, rays.tfar[i]);
+    const int columns = std::min(tile.columns, width_ - tile.x);
+    for (int column = 0; column < columns; ++column) {
+      pixels[column] =
+          to_color(points.light[static_cast<std::size_t>(row * tile.columns + column)]);
     }
   }
 }
 
-bool Tracer::is_matte(const RTCHit& hit) const {
-  return hit.geomID != RTC_INVALID_GEOMETRY_ID && !world_.body(hit.geomID).is_optical();
+bool Tracer::is_matte(unsigned geometry_id) const {
+  return geometry_id != RTC_INVALID_GEOMETRY_ID && !world_.body(geometry_id).is_optical();
 }
 
 Color Tracer::radiance(const Cone& cone) {
@@ -156,22 +159,42 @@ Color Tracer::shade(const Cone& cone, const RTCHit& hit, float distance) {
 }
 
 Color Tracer::matte(const Cone& cone, const RTCHit& hit, float distance, float width) {
+  MattePoints points;
+  meet(cone, hit, distance, width, 0, points);
+  paint(points);
+  return to_color(points.light[0]);
+}
+
+void Tracer::meet(const Cone& cone, const RTCHit& hit, float distance, float width, std::size_t i,
+                  MattePoints& points) {
   const Body& body = world_.body(hit.geomID);
-  const auto& [ia, ib, ic] = body.triangles[hit.primID];
-  const SurfaceVertex& a = body.vertices[ia];
-  const SurfaceVertex& b = body.vertices[ib];
-  const SurfaceVertex& c = body.vertices[ic];
-  const float wa = 1.0f - hit.u - hit.v;
-  Float4 light = wa * a.light + hit.u * b.light + hit.v * c.light;
+  const Facet::Spot spot = body.facets[hit.primID].spot(hit.u, hit.v);
+  const SurfaceTriangle& triangle = body.surface[spot.triangle];
+  const auto& [at_a, step_b, step_c] = triangle.light_and_u;
+  const Float4 light_and_u = at_a + spot.u * step_b + spot.v * step_c;
+  points.light[i] = light_and_u;
+  points.places.u[i] = light_and_u[3];
+  points.places.v[i] = triangle.v[0] + spot.u * triangle.v[1] + spot.v * triangle.v[2];
+  points.places.footprint[i] = width * triangle.tiles_per_metre;
+  points.texture[i] = body.texture.get();
   if (!traced_lights_.empty()) {
     const Eigen::Vector3f point = cone.origin + distance * cone.direction;
-    light += to_float4(traced_light(point, world_.normal(hit, point)));
+    points.light[i] += to_float4(traced_light(point, world_.normal(hit, point)));
   }
-  if (!body.texture) return to_color(light);
+}
 
-  const Eigen::Vector2f uv = wa * a.uv + hit.u * b.uv + hit.v * c.uv;
-  const float footprint = width * body.tiles_per_metre[hit.primID];
-  return to_color(light * body.texture->sample(uv.x(), uv.y(), footprint));
+void Tracer::paint(MattePoints& points) {
+  for (std::size_t first = 0; first < points.texture.size(); ++first) {
+    const Texture* texture = points.texture[first];
+    if (texture == nullptr) continue;
+    // All lanes at once, those of other textures in vain: mostly there are none.
+    const Texture::Colors colors = texture->sample(points.places);
+    for (std::size_t i = first; i < points.texture.size(); ++i) {
+      if (points.texture[i] != texture) continue;
+      points.light[i] *= Float4{colors.red[i], colors.green[i], colors.blue[i], 0.0f};
+      points.texture[i] = nullptr;
+    }
+  }
 }
 
 Color Tracer::traced_light(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) {

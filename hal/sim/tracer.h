@@ -3,6 +3,7 @@
 #include <embree3/rtcore.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -42,13 +43,24 @@ class Tracer {
     int surfaces = 0;           ///< mirrors and glass met so far
   };
 
+  /// Points of surfaces without optics: what light they get, and what paints them (nothing: white).
+  struct MattePoints {
+    std::array<Float4, RayPacket::kSize> light;
+    Texture::Places places;
+    std::array<const Texture*, RayPacket::kSize> texture{};
+  };
+
   void shade_tile(const CameraRays::Tile& tile, const RayPacket& packet,
                   const Eigen::Vector3f& origin, LinearImage& image);
-  bool is_matte(const RTCHit& hit) const;
+  bool is_matte(unsigned geometry_id) const;
   Color radiance(const Cone& cone);
   Color shade(const Cone& cone, const RTCHit& hit, float distance);
-  /// `width` is the pixel's on the surface, slant included.
   Color matte(const Cone& cone, const RTCHit& hit, float distance, float width);
+  /// Fills lane `i`; `width` is the pixel's on the surface, slant included.
+  void meet(const Cone& cone, const RTCHit& hit, float distance, float width, std::size_t i,
+            MattePoints& points);
+  /// Multiplies the light by the textures.
+  static void paint(MattePoints& points);
   Color traced_light(const Eigen::Vector3f& point, const Eigen::Vector3f& normal);
   Color reflected(const Cone& cone, const Eigen::Vector3f& point, const Eigen::Vector3f& normal,
                   float width, float curvature);

@@ -65,7 +65,7 @@ World::World(const SceneSpec& spec)
   }
   rtcCommitScene(fixed_.get());
   rtcCommitScene(moving_.get());
-  bake(spec.lights);
+  for (const auto& body : bodies_) bake(*body, spec.lights);
 }
 
 void World::add_object(const ObjectSpec& spec, std::shared_ptr<const Motion> motion,
@@ -112,13 +112,19 @@ void World::add_mesh(const ObjectSpec& spec, std::shared_ptr<const Motion> motio
 
   Body& body = *bodies_.back();
   const Eigen::Vector2f tiles_per_metre = tile_m.cwiseInverse().cast<float>();
-  for (const Eigen::Vector2f& uv : mesh.uv) {
-    body.vertices.push_back({Float4{}, uv.cwiseProduct(tiles_per_metre)});
-  }
   body.normals = std::move(mesh.normals);
   body.triangles = mesh.triangles;
-  body.tiles_per_metre = texture_density(mesh);
-  for (float& density : body.tiles_per_metre) density *= tiles_per_metre.maxCoeff();
+  const std::vector<float> density = texture_density(mesh);
+  for (std::size_t i = 0; i < density.size(); ++i) {
+    const auto& [a, b, c] = mesh.triangles[i];
+    const Eigen::Vector2f uv = mesh.uv[a].cwiseProduct(tiles_per_metre);
+    const Eigen::Vector2f ab = mesh.uv[b].cwiseProduct(tiles_per_metre) - uv;
+    const Eigen::Vector2f ac = mesh.uv[c].cwiseProduct(tiles_per_metre) - uv;
+    body.surface.push_back(
+        {{Float4{0, 0, 0, uv.x()}, Float4{0, 0, 0, ab.x()}, Float4{0, 0, 0, ac.x()}},
+         {uv.y(), ab.y(), ac.y()},
+         density[i] * tiles_per_metre.maxCoeff()});
+  }
 
   const auto id = static_cast<unsigned>(bodies_.size() - 1);
   const Owned<RTCGeometry> geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE),
@@ -128,34 +134,39 @@ void World::add_mesh(const ObjectSpec& spec, std::shared_ptr<const Motion> motio
       rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                               sizeof(Eigen::Vector3f), mesh.positions.size());
   std::copy(mesh.positions.begin(), mesh.positions.end(), static_cast<Eigen::Vector3f*>(positions));
-  void* indices =
+  body.facets = facets(mesh);
+  auto* corners = static_cast<std::array<std::uint32_t, 3>*>(
       rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              sizeof(mesh.triangles.front()), mesh.triangles.size());
-  std::copy(mesh.triangles.begin(), mesh.triangles.end(),
-            static_cast<std::array<std::uint32_t, 3>*>(indices));
+                              sizeof(body.facets[0].corners), body.facets.size()));
+  for (const Facet& facet : body.facets) *corners++ = facet.corners;
   rtcCommitGeometry(geometry.get());
   rtcAttachGeometryByID(motion ? moving_.get() : fixed_.get(), geometry.get(), id);
   if (motion) movers_.push_back({id, mesh.positions, std::move(motion), {}});
   body.positions = std::move(mesh.positions);
 }
 
-void World::bake(const std::vector<LightSpec>& lights) {
-  for (const auto& body : bodies_) {
-    for (std::size_t i = 0; i < body->vertices.size(); ++i) {
-      // What moves receives the shadows of what does not; it casts none that stay behind.
-      body->vertices[i].light =
-          to_float4(baked_light(fixed_.get(), lights, body->positions[i], body->normals[i]));
-    }
-    body->positions.clear();
+void World::bake(Body& body, const std::vector<LightSpec>& lights) const {
+  std::vector<Float4> light;
+  for (std::size_t i = 0; i < body.positions.size(); ++i) {
+    // What moves receives the shadows of what does not; it casts none that stay behind.
+    light.push_back(
+        to_float4(baked_light(fixed_.get(), lights, body.positions[i], body.normals[i])));
   }
+  for (std::size_t i = 0; i < body.surface.size(); ++i) {
+    const auto& [a, b, c] = body.triangles[i];
+    body.surface[i].light_and_u[0] += light[a];
+    body.surface[i].light_and_u[1] += light[b] - light[a];
+    body.surface[i].light_and_u[2] += light[c] - light[a];
+  }
+  body.positions.clear();
 }
 
-void World::intersect16(RayPacket& packet) const {
+void World::intersect8(RayPacket& packet) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect16(packet.valid, fixed_.get(), &context, &packet.rays);
-  if (moves()) rtcIntersect16(packet.valid, moving_.get(), &context, &packet.rays);
+  rtcIntersect8(packet.valid, fixed_.get(), &context, &packet.rays);
+  if (moves()) rtcIntersect8(packet.valid, moving_.get(), &context, &packet.rays);
 }
 
 void World::intersect1(RTCRayHit& ray) const {
@@ -176,9 +187,10 @@ bool World::occluded1(RTCRay& ray) const {
 Eigen::Vector3f World::normal(const RTCHit& hit, const Eigen::Vector3f& point) const {
   const Body& body = *bodies_[hit.geomID];
   if (body.is_exact_sphere) return (point - body.center).normalized();
-  const auto& [a, b, c] = body.triangles[hit.primID];
+  const auto [triangle, u, v] = body.facets[hit.primID].spot(hit.u, hit.v);
+  const auto& [a, b, c] = body.triangles[triangle];
   const Eigen::Vector3f at_rest =
-      (1.0f - hit.u - hit.v) * body.normals[a] + hit.u * body.normals[b] + hit.v * body.normals[c];
+      (1.0f - u - v) * body.normals[a] + u * body.normals[b] + v * body.normals[c];
   return (body.world_from_rest * at_rest).normalized();
 }
 

@@ -3,6 +3,7 @@
 #include <embree3/rtcore.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -21,20 +22,24 @@
 
 namespace lumibox::hal::sim {
 
-/// A point of the surface as shading needs it.
-struct SurfaceVertex {
-  Float4 light;        ///< irradiance / pi of all lights whose shadows are not traced
-  Eigen::Vector2f uv;  ///< tiles of the texture
+/// What shading needs of a triangle, in one line of cache. Values at a hit are those at the first
+/// corner plus the hit's u times the step to the second plus its v times the step to the third.
+struct alignas(64) SurfaceTriangle {
+  /// Irradiance / pi of all lights whose shadows are not traced (red, green, blue), and the texture
+  /// coordinate u, in tiles: at the first corner, and the two steps.
+  std::array<Float4, 3> light_and_u;
+  std::array<float, 3> v;  ///< the other texture coordinate
+  float tiles_per_metre;   ///< the texture's largest stretch
 };
 
 /// One object: what Embree does not know about it.
 struct Body {
   std::vector<Eigen::Vector3f> positions;  ///< at rest; only until the light is baked
-  std::vector<SurfaceVertex> vertices;
-  std::vector<Eigen::Vector3f> normals;  ///< of the vertices, where the scene file put the object
+  std::vector<SurfaceTriangle> surface;    ///< per triangle
+  std::vector<Eigen::Vector3f> normals;    ///< of the vertices, where the scene file put the object
   Eigen::Matrix3f world_from_rest = Eigen::Matrix3f::Identity();  ///< turns normals with a mover
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<float> tiles_per_metre;      ///< per triangle, the largest stretch
+  std::vector<Facet> facets;               ///< by Embree's primitive id
   std::shared_ptr<const Texture> texture;  ///< none: white
   float mirror = 0.0f;
   float glass_ior = 0.0f;  ///< 0: not glass
@@ -54,7 +59,7 @@ class World {
   explicit World(const SceneSpec& spec);
 
   /// Nearest hits of rays that begin together, of one ray; whether anything is in the way.
-  void intersect16(RayPacket& packet) const;
+  void intersect8(RayPacket& packet) const;
   void intersect1(RTCRayHit& ray) const;
   bool occluded1(RTCRay& ray) const;
 
@@ -88,7 +93,7 @@ class World {
   void add_exact_sphere(const ObjectSpec& spec);
   void add_mesh(const ObjectSpec& spec, std::shared_ptr<const Motion> motion,
                 const Eigen::Vector2d& tile_m);
-  void bake(const std::vector<LightSpec>& lights);
+  void bake(Body& body, const std::vector<LightSpec>& lights) const;
 
   Owned<RTCDevice> device_;
   Owned<RTCScene> fixed_;
