@@ -11,6 +11,7 @@
 #include "geometry/two_view.h"
 #include "tracking/corners.h"
 #include "tracking/opencv_view.h"
+#include "tracking/patch.h"
 #include "tracking/rolling_start.h"
 #include "tracking/third_view.h"
 
@@ -25,10 +26,11 @@ constexpr double kNoisePx = 0.7;          // of a followed corner, standard devi
 }  // namespace
 
 struct Initialiser::Track {
-  Eigen::Vector2d first;              // level 0
-  Eigen::Vector2d current;            // level 0
-  int level = 0;                      // its corner was found on
-  std::vector<Eigen::Vector2d> path;  // in every frame since the first, level 0
+  Eigen::Vector2d first;               // level 0
+  Eigen::Vector2d current;             // level 0
+  int level = 0;                       // its corner was found on
+  std::optional<PatchTemplate> patch;  // of the first frame, on that level
+  std::vector<Eigen::Vector2d> path;   // in every frame since the first, level 0
 };
 
 Initialiser::Initialiser(const geometry::Camera& camera, const config::Tracking& options,
@@ -44,7 +46,12 @@ void Initialiser::restart(const std::shared_ptr<const Pyramid>& frame, std::int6
   for (const Corner& corner :
        detect_corners(*frame, options_.fast_threshold, options_.max_features_per_keyframe)) {
     const Eigen::Vector2d pixel = from_level(corner.pixel, corner.level);
-    tracks_.push_back({pixel, pixel, corner.level, {}});
+    tracks_.push_back(
+        {pixel,
+         pixel,
+         corner.level,
+         make_template(frame->level(corner.level), corner.pixel, Eigen::Matrix2d::Identity()),
+         {}});
   }
   tracks_at_start_ = tracks_.size();
 }
@@ -72,10 +79,23 @@ void Initialiser::follow(const std::shared_ptr<const Pyramid>& frame) {
     Track t = std::move(tracks_[i]);
     t.path.push_back(t.current);
     t.current = Eigen::Vector2d(static_cast<double>(after[i].x), static_cast<double>(after[i].y));
+    refine(*frame, t);
     if (camera_.contains(t.current, 4.0)) kept.push_back(std::move(t));
   }
   tracks_ = std::move(kept);
   last_ = frame;
+}
+
+/// Sharpens a place found from frame to frame by comparison with the first frame: errors do not add
+/// up, and an exposure that changes does no harm.
+void Initialiser::refine(const Pyramid& frame, Track& track) {
+  constexpr double kFarthest = 1.0;  // pixels of the level: beyond, the two disagree
+  if (!track.patch) return;
+  const Eigen::Vector2d start = to_level(track.current, track.level);
+  const auto aligned = align_patch(frame.level(track.level), *track.patch, start);
+  if (aligned && (*aligned - start).norm() < kFarthest) {
+    track.current = from_level(*aligned, track.level);
+  }
 }
 
 double Initialiser::median_flow_px() const {

@@ -51,6 +51,7 @@ class Initialiser {
 
   void restart(const std::shared_ptr<const Pyramid>& frame, std::int64_t timestamp_ns);
   void follow(const std::shared_ptr<const Pyramid>& frame);
+  static void refine(const Pyramid& frame, Track& track);
   double median_flow_px() const;
   Progress solve(const std::shared_ptr<const Pyramid>& frame);
   std::optional<geometry::Pose> decide(const geometry::TwoViewResult& motion,

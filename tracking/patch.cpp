@@ -13,7 +13,7 @@ constexpr double kCenter = 0.5 * (kPatch - 1);  // offset of the centre from the
 constexpr float kGainUnit = 0.02F;  // of the gain's parameter: its column is then like the others
 constexpr float kMinGain = 0.1F;    // of the picture's contrast to the template's
 constexpr float kMaxGain = 10.0F;
-constexpr int kMinVariance = 16 * kArea;  // grey levels squared, summed: contrast of 4 levels
+constexpr int kMinVariance = 6 * kArea;  // grey levels squared, summed: contrast of 2.5 levels
 
 float bilinear(const hal::Image& image, float x, float y) {
   const int x0 = static_cast<int>(x);
