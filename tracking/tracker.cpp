@@ -170,8 +170,8 @@ class Tracker::Impl {
                                                                 : TrackingReason::TooFewPointsFound;
     const bool usable = found && found->inliers >= kMinInliers;
     const bool good = usable && is_good(*found);
-    if (!good && !lost_ && follow_turn(frame, result)) return;
-    turn_.stop();
+    if (!good && follow_turn(frame, result)) return;
+    if (good) turn_.stop();
     bad_frames_ = good ? 0 : bad_frames_ + 1;
     if (bad_frames_ >= options_.lost_after_frames) lost_ = true;
     if (lost_ || !usable) {
@@ -200,8 +200,11 @@ class Tracker::Impl {
       frames_turned_ = 0;
       turn_.start(last_good_, camera_from_world_.rotation);
     }
-    const auto turned = turn_.follow(frame, predicted_.camera_from_world.rotation);
+    std::optional<Eigen::Quaterniond> turned;
+    if (!lost_) turned = turn_.follow(frame, predicted_.camera_from_world.rotation);
+    if (!turned) turned = turn_.find(frame, motion_.picture());
     if (!turned) return false;
+    lost_ = false;
     const Eigen::Vector3d center = camera_from_world_.inverse().translation;
     const geometry::Pose held(*turned, -(*turned * center));
     motion_.moved(camera_from_world_, held);

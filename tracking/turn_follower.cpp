@@ -1,6 +1,7 @@
 #include "tracking/turn_follower.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -43,8 +44,13 @@ TurnFollower::TurnFollower(const geometry::Camera& camera, const config::Trackin
 
 void TurnFollower::start(const std::shared_ptr<const Pyramid>& picture,
                          const Eigen::Quaterniond& camera_from_world) {
-  panorama_ = {};
+  stop();
   extend(picture, camera_from_world);
+}
+
+void TurnFollower::stop() {
+  panorama_ = {};
+  small_.clear();
 }
 
 void TurnFollower::extend(const std::shared_ptr<const Pyramid>& picture,
@@ -69,6 +75,7 @@ void TurnFollower::extend(const std::shared_ptr<const Pyramid>& picture,
     ++added;
   }
   panorama_.keyframes.push_back({pose.inverse(), pose, picture, 1.0, added});
+  small_.emplace_back(*picture);
 }
 
 std::optional<Eigen::Quaterniond> TurnFollower::follow(
@@ -92,6 +99,20 @@ std::optional<Eigen::Quaterniond> TurnFollower::follow(
     extend(picture, turned);
   }
   return turned;
+}
+
+std::optional<Eigen::Quaterniond> TurnFollower::find(const std::shared_ptr<const Pyramid>& picture,
+                                                     const SmallImage& small) {
+  double best = std::numeric_limits<double>::infinity();
+  Eigen::Quaterniond predicted = Eigen::Quaterniond::Identity();
+  for (std::size_t i = 0; i < small_.size(); ++i) {
+    const RotationPrior prior = estimate_rotation(camera_, small_[i], small);
+    if (prior.residual >= best) continue;
+    best = prior.residual;
+    predicted = prior.current_from_last * panorama_.keyframes[i].camera_from_world.rotation;
+  }
+  if (!(best < small.contrast())) return std::nullopt;  // like none of them
+  return follow(picture, predicted);
 }
 
 }  // namespace lumibox::tracking

@@ -3,10 +3,12 @@
 #include <Eigen/Geometry>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "config/config.h"
 #include "geometry/camera.h"
 #include "tracking/map_view.h"
+#include "tracking/rotation_prior.h"
 
 namespace lumibox::tracking {
 
@@ -23,12 +25,16 @@ class TurnFollower {
   /// Begins with a picture whose orientation is known.
   void start(const std::shared_ptr<const Pyramid>& picture,
              const Eigen::Quaterniond& camera_from_world);
-  void stop() { panorama_ = {}; }
+  void stop();
 
   /// Orientation of the next picture, `predicted` to within a tenth of the picture. None if no turn
   /// explains most of what should be visible: then the camera moved, or the picture is bad.
   std::optional<Eigen::Quaterniond> follow(const std::shared_ptr<const Pyramid>& picture,
                                            const Eigen::Quaterniond& predicted);
+
+  /// The same with nothing predicted: near the picture of the panorama that looks most alike.
+  std::optional<Eigen::Quaterniond> find(const std::shared_ptr<const Pyramid>& picture,
+                                         const SmallImage& small);
 
  private:
   void extend(const std::shared_ptr<const Pyramid>& picture,
@@ -38,6 +44,7 @@ class TurnFollower {
   config::Tracking options_;
   /// A map whose keyframes all are at the origin and whose points are unit vectors.
   MapView panorama_;
+  std::vector<SmallImage> small_;  // one per keyframe
 };
 
 }  // namespace lumibox::tracking
