@@ -62,19 +62,18 @@ class Relocaliser::Impl {
   Impl(const geometry::Camera& camera, const config::Tracking& options, std::uint32_t seed)
       : camera_(camera), options_(options), seed_(seed) {}
 
-  std::optional<geometry::Pose> find(const MapView& map, const Pyramid& frame,
-                                     const SmallImage& small) {
+  std::vector<geometry::Pose> find(const MapView& map, const Pyramid& frame,
+                                   const SmallImage& small) {
     const Described here = describe(
         frame, detect_corners(frame, options_.fast_threshold, options_.max_features_per_keyframe));
-    if (here.pixels.empty()) return std::nullopt;
-    std::optional<geometry::AbsolutePose> best;
+    if (here.pixels.empty()) return {};
+    std::vector<geometry::Pose> poses;
     for (const std::size_t id : shortlist(map, small)) {
       if (!known_[id].described) describe_keyframe(map, id);
-      auto pose = match(map, id, here);
-      if (pose && (!best || pose->inlier_count > best->inlier_count)) best = std::move(pose);
+      const auto pose = match(map, id, here);
+      if (pose && pose->inlier_count >= kMinInliers) poses.push_back(pose->camera_from_world);
     }
-    if (!best || best->inlier_count < kMinInliers) return std::nullopt;
-    return best->camera_from_world;
+    return poses;
   }
 
   int described() const {
@@ -171,8 +170,8 @@ int Relocaliser::described() const {
   return impl_->described();
 }
 
-std::optional<geometry::Pose> Relocaliser::find(const MapView& map, const Pyramid& frame,
-                                                const SmallImage& small) {
+std::vector<geometry::Pose> Relocaliser::find(const MapView& map, const Pyramid& frame,
+                                              const SmallImage& small) {
   return impl_->find(map, frame, small);
 }
 

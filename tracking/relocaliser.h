@@ -2,7 +2,7 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
+#include <vector>
 
 #include "config/config.h"
 #include "geometry/camera.h"
@@ -22,10 +22,10 @@ class Relocaliser {
   Relocaliser(const geometry::Camera& camera, const config::Tracking& options, std::uint32_t seed);
   ~Relocaliser();
 
-  /// A pose that explains the frame; none if no keyframe matches. The caller must still verify it
-  /// by tracking from there.
-  std::optional<geometry::Pose> find(const MapView& map, const Pyramid& frame,
-                                     const SmallImage& small);
+  /// Poses that explain the frame, one per keyframe that it matches; more than one where parts of
+  /// the scene look alike. The caller must still verify them by tracking from there.
+  std::vector<geometry::Pose> find(const MapView& map, const Pyramid& frame,
+                                   const SmallImage& small);
 
   /// Keyframes described so far.
   int described() const;

@@ -10,6 +10,7 @@
 #include "tracking/map_tracking.h"
 #include "tracking/mapper.h"
 #include "tracking/motion_model.h"
+#include "tracking/relocalisation.h"
 #include "tracking/relocaliser.h"
 #include "tracking/turn_follower.h"
 
@@ -46,6 +47,7 @@ class Tracker::Impl {
     result.timestamp_ns = timestamp_ns;
     const auto frame = std::make_shared<const Pyramid>(gray, options_.pyramid_levels);
     motion_.next_frame(*frame, timestamp_ns);
+    timestamp_ns_ = timestamp_ns;
     visible_.clear();
     if (!map_) {
       initialise(frame, result);
@@ -114,6 +116,7 @@ class Tracker::Impl {
     mapper_.start(*progress.map);
     map_ = mapper_.view();
     anchor_ = 1;
+    last_pose_ns_ = timestamp_ns_;
     anchor_from_camera_ = geometry::Pose();
     camera_from_world_ = keyframe(1).camera_from_world;
     for (const MapView::Point& p : map_->points) visible_.push_back(p.position);
@@ -146,16 +149,23 @@ class Tracker::Impl {
   }
 
   std::optional<Localisation> relocalise(const Pyramid& frame) {
-    const auto pose = relocaliser_.find(*map_, frame, motion_.picture());
-    if (!pose) return std::nullopt;
-    auto found = localise(camera_, options_, *map_, frame, *pose);
-    if (!found || found->inliers < kMinGoodInliers || found->found_share() < kVerifiedShare) {
-      return std::nullopt;
+    std::vector<Localisation> found;
+    std::vector<PossiblePlace> places;
+    for (const geometry::Pose& pose : relocaliser_.find(*map_, frame, motion_.picture())) {
+      auto here = localise(camera_, options_, *map_, frame, pose);
+      if (!here || here->inliers < kMinGoodInliers || here->found_share() < kVerifiedShare)
+        continue;
+      places.push_back({here->pose.camera_from_world, here->inliers});
+      found.push_back(std::move(*here));
     }
+    const double seconds = 1e-9 * static_cast<double>(timestamp_ns_ - last_pose_ns_);
+    const auto chosen =
+        choose_place(places, {camera_from_world_, keyframe(anchor_).median_depth, seconds});
+    if (!chosen) return std::nullopt;
     lost_ = false;
     jumped_ = true;
     ++relocalisations_;
-    return found;
+    return std::move(found[*chosen]);
   }
 
   bool is_good(const Localisation& found) const {
@@ -189,6 +199,7 @@ class Tracker::Impl {
     choose_anchor();
     gather_evidence(*found);
     last_good_ = good ? frame : nullptr;
+    if (good) last_pose_ns_ = timestamp_ns_;
     report_pose(good ? TrackingState::Good : TrackingState::Poor, found->inliers, result);
   }
 
@@ -334,6 +345,8 @@ class Tracker::Impl {
   bool lost_ = false;
   bool jumped_ = false;  // this frame was located anew
   int bad_frames_ = 0;
+  std::int64_t timestamp_ns_ = 0;  // of the present frame
+  std::int64_t last_pose_ns_ = 0;  // of the last good one
   int frames_since_keyframe_ = 0;
 
   struct PendingKeyframe {

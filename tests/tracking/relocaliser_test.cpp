@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "tracking/corners.h"
 #include "tracking/map.h"
+#include "tracking/relocalisation.h"
 #include "tracking/textured_world.h"
 
 namespace lumibox::tracking {
@@ -31,7 +34,7 @@ MapView row_of_keyframes() {
   const geometry::Camera camera = testing::small_camera();
   Map map;
   for (int i = 0; i < kKeyframes; ++i) {
-    const KeyframeId id = map.add_keyframe(place(i), picture_from(place(i)));
+    const KeyframeId id = map.add_keyframe(place(i).inverse(), picture_from(place(i)));
     for (const Corner& corner : detect_corners(*map.keyframe(id).pyramid, 20, 300)) {
       const Eigen::Vector2d pixel = from_level(corner.pixel, corner.level);
       const Eigen::Vector3d ray = camera.unproject(pixel)->homogeneous();
@@ -53,14 +56,50 @@ TEST(Relocaliser, FindsThePlaceAndDescribesOnlyKeyframesThatLookAlike) {
   const MapView map = row_of_keyframes();
   Relocaliser relocaliser(testing::small_camera(), options(), 1);
   const Pyramid blank(hal::Image(320, 240, 1), 3);
-  EXPECT_FALSE(relocaliser.find(map, blank, SmallImage(blank)));
+  EXPECT_TRUE(relocaliser.find(map, blank, SmallImage(blank)).empty());
   EXPECT_EQ(relocaliser.described(), 0);
   const auto frame = picture_from(place(4.5));
   const auto found = relocaliser.find(map, *frame, SmallImage(*frame));
-  ASSERT_TRUE(found);
-  EXPECT_LT((found->inverse().translation - place(4.5).translation).norm(), 0.02);
+  ASSERT_FALSE(found.empty());
+  for (const geometry::Pose& pose : found) {
+    EXPECT_LT((pose.inverse().translation - place(4.5).translation).norm(), 0.02);
+  }
   EXPECT_GT(relocaliser.described(), 0);
   EXPECT_LE(relocaliser.described(), kKeyframes / 2) << "a lost frame must not take too long";
+}
+
+/// A camera on a circle of radius 1 around the origin, looking at it.
+geometry::Pose around(double angle) {
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY()));
+  return geometry::Pose(turn, turn * Eigen::Vector3d(0.0, 0.0, -1.0)).inverse();
+}
+
+LastSeen seen(double seconds_ago) {
+  return {around(0.0), 1.0, seconds_ago};
+}
+
+TEST(ChoosePlace, TheBackOfACanIsNotItsFrontHalfASecondLater) {
+  const std::vector<PossiblePlace> back = {{around(std::numbers::pi), 300}};
+  EXPECT_FALSE(choose_place(back, seen(0.5)));
+  EXPECT_EQ(choose_place(back, seen(5.0)), 0U);
+}
+
+TEST(ChoosePlace, OfTwoThatLookAlikeTheReachableOneIsBelieved) {
+  const std::vector<PossiblePlace> both = {{around(std::numbers::pi), 300}, {around(0.2), 280}};
+  EXPECT_EQ(choose_place(both, seen(0.5)), 1U);
+}
+
+TEST(ChoosePlace, StaysLostWhereNothingTellsTwoPlacesApart) {
+  const std::vector<PossiblePlace> both = {{around(std::numbers::pi), 300}, {around(0.2), 280}};
+  EXPECT_FALSE(choose_place(both, seen(5.0)));
+  const std::vector<PossiblePlace> clear = {{around(std::numbers::pi), 300}, {around(0.2), 100}};
+  EXPECT_EQ(choose_place(clear, seen(5.0)), 0U);
+}
+
+TEST(ChoosePlace, SeveralKeyframesThatAgreeAreOnePlace) {
+  const std::vector<PossiblePlace> same = {{around(0.1), 200}, {around(0.11), 210}};
+  EXPECT_EQ(choose_place(same, seen(5.0)), 1U);
+  EXPECT_FALSE(choose_place({}, seen(5.0)));
 }
 
 }  // namespace

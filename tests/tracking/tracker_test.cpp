@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/rotation.h"
+#include "support/pinhole.h"
 #include "tracking/textured_world.h"
 
 namespace lumibox::tracking {
@@ -13,19 +14,22 @@ namespace {
 
 constexpr std::int64_t kPeriod = 33'333'333;
 
-std::vector<hal::Image> walk_sideways(int frames, double step) {
+geometry::Pose walk_pose(int frame, double step) {
+  return {geometry::exp_so3(Eigen::Vector3d(0.0, -0.004 * frame, 0.0)),
+          Eigen::Vector3d(step * frame, 0.1 * step * frame, 0.0)};
+}
+
+std::vector<hal::Image> walk_sideways(const geometry::Camera& camera, int frames, double step) {
   std::vector<hal::Image> images;
   for (int i = 0; i < frames; ++i) {
-    const geometry::Pose pose(geometry::exp_so3(Eigen::Vector3d(0.0, -0.004 * i, 0.0)),
-                              Eigen::Vector3d(step * i, 0.1 * step * i, 0.0));
-    images.push_back(testing::render_wedge(testing::small_camera(), pose));
+    images.push_back(testing::render_wedge(camera, walk_pose(i, step)));
   }
   return images;
 }
 
 /// Rendered once for all tests of this file.
 const std::vector<hal::Image>& walk() {
-  static const std::vector<hal::Image> images = walk_sideways(24, 0.015);
+  static const std::vector<hal::Image> images = walk_sideways(testing::small_camera(), 24, 0.015);
   return images;
 }
 
@@ -138,6 +142,41 @@ TEST(Tracker, LosesACoveredLensAndComesBack) {
       (frames.back().world_from_camera->translation - frames[23].world_from_camera->translation)
           .norm(),
       0.005);
+}
+
+// 40 degrees away from all that the map knows and back, without a step: the pose is held and
+// turned, and not good enough to record with while the map does not show.
+TEST(Tracker, TurningAwayAndBackKeepsThePose) {
+  const geometry::Camera narrow = lumibox::testing::pinhole(320, 240, 480.0);
+  std::vector<hal::Image> images = walk_sideways(narrow, 24, 0.015);
+  const geometry::Pose last = walk_pose(23, 0.015);
+  const auto turned = [&](int step) {
+    return geometry::Pose(last.rotation * geometry::exp_so3({0.0, 0.035 * step, 0.0}),
+                          last.translation);
+  };
+  std::vector<double> turns;
+  for (int i = 1; i <= 40; ++i) {
+    const int step = i <= 20 ? i : 40 - i;
+    turns.push_back(0.035 * step);
+    images.push_back(testing::render_wedge(narrow, turned(step)));
+  }
+  Tracker tracker(narrow, options(), Mapping::Lockstep, 1);
+  const auto frames = run(tracker, images);
+  const auto& before = *frames[23].world_from_camera;
+  bool held = false;
+  for (std::size_t i = 24; i < frames.size(); ++i) {
+    ASSERT_TRUE(frames[i].world_from_camera) << i;
+    held = held || frames[i].reason == TrackingReason::TurningOnly;
+    // 0.02 rad: half a degree of turn and as much of place seen as turn, in a picture of 320
+    // pixels.
+    EXPECT_NEAR(frames[i].world_from_camera->rotation.angularDistance(before.rotation),
+                turns[i - 24], 0.02)
+        << i;
+    EXPECT_LT((frames[i].world_from_camera->translation - before.translation).norm(), 0.05) << i;
+  }
+  EXPECT_TRUE(held) << "the map must be out of sight, or this tests nothing";
+  EXPECT_EQ(frames.back().state, TrackingState::Good);
+  EXPECT_EQ(tracker.statistics().relocalisations, 0);
 }
 
 TEST(Tracker, EveryReasonHasItsAdvice) {

@@ -1,0 +1,47 @@
+#include "tracking/relocalisation.h"
+
+namespace lumibox::tracking {
+namespace {
+
+constexpr double kSpeed = 1.5;      // depths per second: more than a hand or a walk around makes
+constexpr double kReach = 0.3;      // depths, at once: what tracking was off by when it was lost
+constexpr double kAlike = 0.6;      // of the inliers of the best place
+constexpr double kSameTurn = 0.35;  // radians; nearer places are one
+constexpr double kSamePlace = 0.2;  // depths
+
+geometry::Pose apart(const geometry::Pose& a, const geometry::Pose& b) {
+  return a * b.inverse();
+}
+
+bool is_same(const PossiblePlace& a, const PossiblePlace& b, double depth) {
+  const geometry::Pose motion = apart(a.camera_from_world, b.camera_from_world);
+  return motion.translation.norm() < kSamePlace * depth &&
+         motion.rotation.angularDistance(Eigen::Quaterniond::Identity()) < kSameTurn;
+}
+
+bool is_reachable(const PossiblePlace& place, const LastSeen& last) {
+  const Eigen::Vector3d there = place.camera_from_world.inverse().translation;
+  const Eigen::Vector3d here = last.camera_from_world.inverse().translation;
+  return (there - here).norm() < (kReach + kSpeed * last.seconds_ago) * last.depth;
+}
+
+}  // namespace
+
+std::optional<std::size_t> choose_place(std::span<const PossiblePlace> places,
+                                        const LastSeen& last) {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (!is_reachable(places[i], last)) continue;
+    if (!best || places[i].inliers > places[*best].inliers) best = i;
+  }
+  if (!best) return std::nullopt;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const bool rival = is_reachable(places[i], last) &&
+                       places[i].inliers > kAlike * places[*best].inliers &&
+                       !is_same(places[i], places[*best], last.depth);
+    if (rival) return std::nullopt;
+  }
+  return best;
+}
+
+}  // namespace lumibox::tracking
