@@ -1,9 +1,13 @@
 #include "tracking/patch.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <vector>
+
+#include "hal/newer_processors.h"
 
 namespace lumibox::tracking {
 namespace {
@@ -37,22 +41,31 @@ struct Moments {
   std::int64_t variance = 0;
 };
 
-Moments moments_at(const hal::Image& image, const PatchTemplate& patch, int x, int y) {
+/// `pixels` is the picture at the patch's first pixel. Sixteen-bit numbers, whose products the
+/// processor adds up in pairs.
+Moments moments_of(const std::int16_t* pixels, std::ptrdiff_t stride, const PatchTemplate& patch) {
   int sum = 0;
   int sum_squared = 0;
   int sum_product = 0;
   for (int v = 0; v < kPatch; ++v) {
-    const std::uint8_t* row = image.row(y + v) + x;
+    const std::int16_t* row = pixels + v * stride;
     const std::int16_t* wanted = patch.core.data() + v * kPatch;
     for (int u = 0; u < kPatch; ++u) {
-      const int value = row[u];
-      sum += value;
-      sum_squared += value * value;
-      sum_product += value * wanted[u];
+      sum += row[u];
+      sum_squared += int{row[u]} * int{row[u]};
+      sum_product += int{row[u]} * int{wanted[u]};
     }
   }
   return {std::int64_t{kArea} * sum_product - std::int64_t{sum} * patch.sum,
           std::int64_t{kArea} * sum_squared - std::int64_t{sum} * sum};
+}
+
+Moments moments_at(const hal::Image& image, const PatchTemplate& patch, int x, int y) {
+  std::array<std::int16_t, kArea> pixels;
+  for (int v = 0; v < kPatch; ++v) {
+    std::copy_n(image.row(y + v) + x, kPatch, pixels.data() + v * kPatch);
+  }
+  return moments_of(pixels.data(), kPatch, patch);
 }
 
 std::int64_t template_variance(const PatchTemplate& patch) {
@@ -100,6 +113,7 @@ AlignmentSystem make_system(const PatchTemplate& patch) {
 
 }  // namespace
 
+LUMIBOX_FOR_NEWER_PROCESSORS
 std::optional<PatchTemplate> make_template(const hal::Image& image, const Eigen::Vector2d& center,
                                            const Eigen::Matrix2d& source_from_target) {
   constexpr double kReach = kCenter + 1.0;
@@ -136,6 +150,7 @@ std::optional<PatchTemplate> make_template(const hal::Image& image, const Eigen:
   return patch;
 }
 
+LUMIBOX_FOR_NEWER_PROCESSORS
 std::optional<PatchMatch> search_square(const hal::Image& image, const PatchTemplate& patch,
                                         const Eigen::Vector2d& center, double radius) {
   const int x_first = std::max(0, static_cast<int>(std::ceil(center.x() - kCenter - radius)));
@@ -144,13 +159,21 @@ std::optional<PatchMatch> search_square(const hal::Image& image, const PatchTemp
       std::min(image.width() - kPatch, static_cast<int>(std::floor(center.x() - kCenter + radius)));
   const int y_last = std::min(image.height() - kPatch,
                               static_cast<int>(std::floor(center.y() - kCenter + radius)));
+  if (x_last < x_first || y_last < y_first) return std::nullopt;
+  // The whole window once as sixteen-bit numbers.
+  const std::ptrdiff_t stride = x_last - x_first + kPatch;
+  std::vector<std::int16_t> window(static_cast<std::size_t>(stride * (y_last - y_first + kPatch)));
+  for (int y = y_first; y < y_last + kPatch; ++y) {
+    std::copy_n(image.row(y) + x_first, stride, window.data() + (y - y_first) * stride);
+  }
   // Comparing cov|cov|/var orders places as the correlation does, without its square root.
   double best_score = -std::numeric_limits<double>::infinity();
   PatchMatch best;
   Moments best_moments;
   for (int y = y_first; y <= y_last; ++y) {
     for (int x = x_first; x <= x_last; ++x) {
-      const Moments m = moments_at(image, patch, x, y);
+      const Moments m =
+          moments_of(window.data() + (y - y_first) * stride + (x - x_first), stride, patch);
       if (m.variance < std::int64_t{kArea} * kMinVariance / 4) continue;
       const double covariance = static_cast<double>(m.covariance);
       const double score = covariance * std::abs(covariance) / static_cast<double>(m.variance);
@@ -174,6 +197,7 @@ std::optional<double> correlation_at(const hal::Image& image, const PatchTemplat
   return correlation(moments_at(image, patch, x, y), patch);
 }
 
+LUMIBOX_FOR_NEWER_PROCESSORS
 std::optional<Eigen::Vector2d> align_patch(const hal::Image& image, const PatchTemplate& patch,
                                            const Eigen::Vector2d& start) {
   const AlignmentSystem system = make_system(patch);

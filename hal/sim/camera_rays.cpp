@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hal/sim/newer_processors.h"
+#include "hal/newer_processors.h"
 
 namespace lumibox::hal::sim {
 

@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "hal/sim/newer_processors.h"
+#include "hal/newer_processors.h"
 
 namespace lumibox::hal::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "hal/sim/light_bake.h"
-#include "hal/sim/newer_processors.h"
+#include "hal/newer_processors.h"
 
 namespace lumibox::hal::sim {
 namespace {
