@@ -107,6 +107,8 @@ void add_track(CLI::App& app) {
   command->add_option("--live", options->live, "trajectory as known when each frame was shown")
       ->type_name("LIVE.tum");
   command->add_option("--json", options->json, "statistics")->type_name("STATS");
+  command->add_option("--plot", options->plot, "map, errors and states as a picture (SVG)")
+      ->type_name("OUT.svg");
   command->add_option("--seed", options->seed, "of the random sampling")
       ->check(CLI::Range(std::uint32_t{0}, std::numeric_limits<std::uint32_t>::max()))
       ->type_name("N");

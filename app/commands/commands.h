@@ -30,6 +30,7 @@ struct TrackOptions {
   std::filesystem::path out;
   std::optional<std::filesystem::path> live;
   std::optional<std::filesystem::path> json;
+  std::optional<std::filesystem::path> plot;
   std::optional<std::filesystem::path> calibration;
   std::optional<std::filesystem::path> capture;
   std::optional<SubjectPixel> subject;  ///< none: the middle, as soon as possible

@@ -12,8 +12,10 @@
 #include "app/progress.h"
 #include "app/sight.h"
 #include "app/threading.h"
+#include "app/track_picture.h"
 #include "app/track_report.h"
 #include "bench/pose_log.h"
+#include "bench/track_plot.h"
 #include "bench/trajectory.h"
 #include "config/error.h"
 #include "config/log.h"
@@ -27,6 +29,7 @@ namespace {
 struct Result {
   TrackReport report;
   bench::PoseLog poses;
+  std::vector<bench::PlottedFrame> frames;
 };
 
 /// Until the recording is over: look, note, let the capture see it too.
@@ -45,6 +48,9 @@ void play(Sight& sight, hal::Camera& camera, hal::Clock& clock, AutoCapture* cap
     }
     result.report.add(moment);
     result.poses.add(moment.tracked);
+    result.frames.push_back({1e-9 * static_cast<double>(moment.tracked.timestamp_ns),
+                             moment.tracked.state, moment.tracked.reason,
+                             moment.tracked.measurements, moment.tracking_ms});
     if (capture != nullptr) {
       capture->see(moment);
     }
@@ -100,6 +106,9 @@ void try_outputs(const TrackOptions& options) {
   }
   if (options.json) {
     require_writable(*options.json);
+  }
+  if (options.plot) {
+    require_writable(*options.plot);
   }
 }
 
@@ -172,6 +181,18 @@ void track(const TrackOptions& options) {
   judge("final", corrected, sequence, json);
   if (options.json) {
     attempts.attempt([&] { write_json(*options.json, json); });
+  }
+  if (options.plot) {
+    attempts.attempt([&] {
+      bench::TrackPlot plot = begin_plot(tracker, sequence, json);
+      plot.frames = result.frames;
+      plot.live = live;
+      plot.corrected = corrected;
+      for (const auto& perspective : recorder.light_field().perspectives()) {
+        plot.perspectives.push_back(perspective.world_from_camera.translation);
+      }
+      bench::write_svg(*options.plot, bench::draw_track(plot));
+    });
   }
   attempts.rethrow_first();
   if (result.poses.empty()) {

@@ -201,13 +201,15 @@ TEST(CommandLine, RecordingThatCannotBeTrackedLeavesItsStatisticsAndSaysWhy) {
   const TempDir dir;
   const std::string out = (dir / "deep" / "walk").string();
   EXPECT_COMPLAINT(lumibox("track " + recording.folder().string() + " --out " + out +
-                           ".tum --live " + out + ".live.tum --json " + out + ".json"),
+                           ".tum --live " + out + ".live.tum --json " + out + ".json --plot " +
+                           out + ".svg"),
                    HasSubstr("no frame could be tracked"));
   EXPECT_THAT(
       read_text(out + ".json"),
       AllOf(HasSubstr("\"frames\": 5"), HasSubstr("\"tracked\": 0"), HasSubstr("\"losses\": []")));
   EXPECT_TRUE(std::filesystem::exists(out + ".tum"));
   EXPECT_TRUE(std::filesystem::exists(out + ".live.tum"));
+  EXPECT_THAT(read_text(out + ".svg"), HasSubstr("5 frames, 0 tracked"));
 }
 
 TEST(CommandLine, WhatCameBeforeABrokenPictureIsKept) {
@@ -229,6 +231,9 @@ TEST(CommandLine, PlacesForResultsAreTriedBeforeTheWork) {
   const std::string out = (dir / "walk.tum").string();
   EXPECT_COMPLAINT(
       lumibox("track " + recording.folder().string() + " --out " + out + " --json " + bad),
+      HasSubstr((dir / "file").string()));
+  EXPECT_COMPLAINT(
+      lumibox("track " + recording.folder().string() + " --out " + out + " --plot " + bad),
       HasSubstr((dir / "file").string()));
   EXPECT_FALSE(std::filesystem::exists(out)) << "nothing was tracked, and the trial left nothing";
   EXPECT_COMPLAINT(lumibox("evaluate /nowhere/capture --json " + dir.path().string()),
