@@ -132,9 +132,10 @@ std::array<Range, 3> extent(const TrackPlot& plot, const Eigen::Matrix3d& map_fr
     for (const Eigen::Vector3d& point : plot.points) {
       values.push_back(map_from_world.row(axis) * point);
     }
-    if (values.empty() || length == 0.0) continue;
-    const double least = poses.low - kAround * length;
-    const double most = poses.high + kAround * length;
+    if (values.empty() || poses.empty()) continue;
+    const double room = length > 0.0 ? kAround * length : std::numeric_limits<double>::infinity();
+    const double least = poses.low - room;
+    const double most = poses.high + room;
     range.include(std::clamp(geometry::quantile(values, 0.03), least, most));
     range.include(std::clamp(geometry::quantile(values, 0.97), least, most));
   }
@@ -151,8 +152,7 @@ Range around_middle(const Range& range, double length) {
 Eigen::Matrix3d map_from_world(const std::vector<hal::StampedPose>& trajectory) {
   if (trajectory.empty()) return Eigen::Matrix3d::Identity();
   constexpr double kCamerasOwnUp = 0.05;  // its weight; decides where all look the same way
-  constexpr double kAgreement =
-      0.5;  // cosine; of a camera that rolls the two have nothing in common
+  constexpr double kAgreement = 0.5;  // cosine; if a camera rolls the two have nothing in common
   const auto count = static_cast<double>(trajectory.size());
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   Eigen::Vector3d mean_up = Eigen::Vector3d::Zero();

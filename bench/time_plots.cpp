@@ -167,7 +167,7 @@ void draw_points_found(Stack& stack, const TrackPlot& plot) {
 void draw_times(Stack& stack, const TrackPlot& plot) {
   Range range{1.0, 20.0};
   for (const PlottedFrame& frame : plot.frames) range.include(1.2 * frame.ms);
-  stack.draw("Time in the tracker, in lockstep with the mapper's",
+  stack.draw("Time in the tracker, without --realtime in the mapper too",
              {"[ms]", {std::max(range.low, 0.1), range.high}, Scale::Logarithmic}, kSmallHeight,
              {numbers(plot, [](const PlottedFrame& frame) { return std::max(frame.ms, 0.1); })});
 }
