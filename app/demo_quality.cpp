@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/painter.h"
-#include "app/trajectory.h"
+#include "bench/trajectory.h"
 #include "render/image_quality.h"
 #include "render/leave_one_out.h"
 
@@ -61,7 +61,7 @@ void say_quality(const hal::Scene& scene, const Loop& loop) {
     estimate.push_back({time_s, perspective.world_from_camera});
     truth.push_back({time_s, scene.world_from_camera(time_s)});
   }
-  const auto error = compare_trajectories(estimate, truth);
+  const auto error = bench::compare_trajectories(estimate, truth);
   if (!error) {
     return;
   }

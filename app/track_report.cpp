@@ -1,25 +1,10 @@
 #include "app/track_report.h"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <nlohmann/json.hpp>
 
+#include "geometry/robust.h"
+
 namespace lumibox::app {
-namespace {
-
-/// The value below which the share `q` of the values lie (nearest rank); 0 without values.
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) {
-    return 0.0;
-  }
-  std::ranges::sort(values);
-  const double rank = std::ceil(q * static_cast<double>(values.size())) - 1.0;
-  return values[static_cast<std::size_t>(std::max(rank, 0.0))];
-}
-
-}  // namespace
-
 void TrackReport::add(const Moment& moment) {
   const tracking::TrackedFrame& tracked = moment.tracked;
   ++frames_;
@@ -54,8 +39,9 @@ nlohmann::json TrackReport::to_json(const tracking::TrackerStatistics& statistic
   json["points"] = statistics.points;
   json["loops_closed"] = statistics.loops_closed;
   json["relocalisations"] = statistics.relocalisations;
-  json["ms"] = {
-      {"median", quantile(ms_, 0.5)}, {"p95", quantile(ms_, 0.95)}, {"max", quantile(ms_, 1.0)}};
+  json["ms"] = {{"median", geometry::quantile(ms_, 0.5)},
+                {"p95", geometry::quantile(ms_, 0.95)},
+                {"max", geometry::quantile(ms_, 1.0)}};
   json["losses"] = nlohmann::json::array();
   for (const Loss& loss : losses_) {
     json["losses"].push_back({{"reason", name_of(loss.reason)},

@@ -27,6 +27,14 @@ double median(std::vector<double> values) {
   return below + 0.5 * (*middle - below);
 }
 
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  const double rank = std::ceil(share * static_cast<double>(values.size())) - 1.0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 0.0));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
 double mad_sigma(std::span<const double> residuals) {
   std::vector<double> magnitudes(residuals.size());
   std::transform(residuals.begin(), residuals.end(), magnitudes.begin(),

@@ -17,6 +17,10 @@ double huber_weight(double residual, double limit);
 /// purpose: the values are reordered.
 double median(std::vector<double> values);
 
+/// The value below which the share `share` of the values lies (nearest rank): 0.95 is the 95th
+/// percentile, 1 the largest. 0 for none.
+double quantile(std::vector<double> values, double share);
+
 /// Standard deviation of zero-mean Gaussian residuals with outliers: 1.4826 times the median of
 /// their magnitudes (Rousseeuw and Leroy, 1987). 0 for none.
 double mad_sigma(std::span<const double> residuals);

@@ -96,6 +96,8 @@ class Tracker::Impl {
     return s;
   }
 
+  bool mapping() const { return mapper_.busy(); }
+
   void finish() {
     mapper_.finish();
     if (map_) adopt_newest_map();
@@ -383,6 +385,9 @@ std::vector<Eigen::Vector3d> Tracker::visible_points() const {
 }
 TrackerStatistics Tracker::statistics() const {
   return impl_->statistics();
+}
+bool Tracker::mapping() const {
+  return impl_->mapping();
 }
 void Tracker::finish() {
   impl_->finish();

@@ -62,6 +62,9 @@ class Tracker {
 
   TrackerStatistics statistics() const;
 
+  /// True while the mapper has work; never in lockstep.
+  bool mapping() const;
+
   /// Waits for the mapper and runs the final adjustment.
   void finish();
 

@@ -107,6 +107,8 @@ void add_track(CLI::App& app) {
   command->add_option("--live", options->live, "trajectory as known when each frame was shown")
       ->type_name("LIVE.tum");
   command->add_option("--json", options->json, "statistics")->type_name("STATS");
+  command->add_option("--plot", options->plot, "map, errors and states as a picture (SVG)")
+      ->type_name("OUT.svg");
   command->add_option("--seed", options->seed, "of the random sampling")
       ->check(CLI::Range(std::uint32_t{0}, std::numeric_limits<std::uint32_t>::max()))
       ->type_name("N");
@@ -209,6 +211,35 @@ void add_sim(CLI::App& app) {
       ->required();
 }
 
+void add_bench(CLI::App& app) {
+  const auto options = std::make_shared<BenchOptions>();
+  CLI::App* command = add_command(
+      app, "bench",
+      "What accuracy costs in time: one setting varied at a time; JSON lines and a plot.",
+      "lumibox bench tracking --out out/bench --sequence walk/", options, run_bench);
+  command->add_option("WHAT", options->what, "what is measured")
+      ->check(CLI::IsMember({"tracking", "simulation"}))
+      ->capture_default_str();
+  command->add_option("--out", options->out, "folder for WHAT.jsonl and WHAT.svg")
+      ->type_name("DIR")
+      ->required();
+  command
+      ->add_option("--sequence", options->sequences,
+                   "a recording to measure besides the simulated toy; may be repeated")
+      ->type_name("SEQ")
+      ->allow_extra_args(false);
+  command->add_option("--frames", options->frames, "how many of each recording or scene, at most")
+      ->type_name("N")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{100000}))
+      ->capture_default_str();
+  command
+      ->add_option("--runs", options->runs,
+                   "of each value, each with another seed; table and plot have the medians")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+}
+
 /// CLI11 says of an unknown command only that one is required.
 std::string failure_message(const CLI::App* app, const CLI::Error& error) {
   if (!app->get_subcommands().empty() || error.get_name() != "RequiredError") {
@@ -241,6 +272,7 @@ int run_command_line(int argc, char** argv) {
   add_import(app);
   add_export(app);
   add_sim(app);
+  add_bench(app);
   for (CLI::App* command : app.get_subcommands({})) {
     for (CLI::Option* option : command->get_options()) option->check(must_not_be_empty);
   }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/auto_capture.h"
 #include "config/loader.h"
@@ -30,6 +31,7 @@ struct TrackOptions {
   std::filesystem::path out;
   std::optional<std::filesystem::path> live;
   std::optional<std::filesystem::path> json;
+  std::optional<std::filesystem::path> plot;
   std::optional<std::filesystem::path> calibration;
   std::optional<std::filesystem::path> capture;
   std::optional<SubjectPixel> subject;  ///< none: the middle, as soon as possible
@@ -81,5 +83,15 @@ struct SimOptions {
   std::filesystem::path out;
 };
 void simulate(const SimOptions& options);
+
+struct BenchOptions {
+  config::Sources sources;
+  std::string what = "tracking";  ///< or "simulation"
+  std::filesystem::path out;
+  std::vector<std::filesystem::path> sequences;
+  std::int64_t frames = 200;  ///< of each recording or scene, at most
+  int runs = 1;               ///< of each variation, each with a seed of its own
+};
+void run_bench(const BenchOptions& options);
 
 }  // namespace lumibox::app

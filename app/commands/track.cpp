@@ -12,8 +12,11 @@
 #include "app/progress.h"
 #include "app/sight.h"
 #include "app/threading.h"
+#include "app/track_picture.h"
 #include "app/track_report.h"
-#include "app/trajectory.h"
+#include "bench/pose_log.h"
+#include "bench/track_plot.h"
+#include "bench/trajectory.h"
 #include "config/error.h"
 #include "config/log.h"
 #include "hal/replay/replay_camera.h"
@@ -23,17 +26,10 @@
 namespace lumibox::app {
 namespace {
 
-/// A frame with a pose, as it was known then and as it can be corrected later.
-struct Tracked {
-  double timestamp_s = 0.0;
-  geometry::Pose world_from_camera;
-  tracking::KeyframeId keyframe = -1;
-  geometry::Pose keyframe_from_camera;
-};
-
 struct Result {
   TrackReport report;
-  std::vector<Tracked> frames;
+  bench::PoseLog poses;
+  std::vector<bench::PlottedFrame> frames;
 };
 
 /// Until the recording is over: look, note, let the capture see it too.
@@ -51,11 +47,10 @@ void play(Sight& sight, hal::Camera& camera, hal::Clock& clock, AutoCapture* cap
       continue;
     }
     result.report.add(moment);
-    if (moment.tracked.world_from_camera) {
-      result.frames.push_back({1e-9 * static_cast<double>(moment.frame.timestamp_ns),
-                               *moment.tracked.world_from_camera, moment.tracked.keyframe,
-                               moment.tracked.keyframe_from_camera});
-    }
+    result.poses.add(moment.tracked);
+    result.frames.push_back({1e-9 * static_cast<double>(moment.tracked.timestamp_ns),
+                             moment.tracked.state, moment.tracked.reason,
+                             moment.tracked.measurements, moment.tracking_ms});
     if (capture != nullptr) {
       capture->see(moment);
     }
@@ -63,32 +58,11 @@ void play(Sight& sight, hal::Camera& camera, hal::Clock& clock, AutoCapture* cap
   }
 }
 
-std::vector<hal::StampedPose> live_trajectory(const Result& result) {
-  std::vector<hal::StampedPose> trajectory;
-  for (const Tracked& frame : result.frames) {
-    trajectory.push_back({frame.timestamp_s, frame.world_from_camera});
-  }
-  return trajectory;
-}
-
-/// The poses with all later corrections of the map.
-std::vector<hal::StampedPose> final_trajectory(const Result& result,
-                                               const tracking::Tracker& tracker) {
-  std::vector<hal::StampedPose> trajectory;
-  for (const Tracked& frame : result.frames) {
-    const auto world_from_keyframe = tracker.world_from_keyframe(frame.keyframe);
-    trajectory.push_back({frame.timestamp_s, world_from_keyframe
-                                                 ? *world_from_keyframe * frame.keyframe_from_camera
-                                                 : frame.world_from_camera});
-  }
-  return trajectory;
-}
-
 /// Adds the errors against the truth to the statistics and says them.
 void judge(const std::string& which, const std::vector<hal::StampedPose>& trajectory,
            const hal::Sequence& sequence, nlohmann::json& json) {
   const auto subject = sequence.subject ? std::optional(sequence.subject->center) : std::nullopt;
-  const auto error = compare_trajectories(trajectory, sequence.ground_truth, subject);
+  const auto error = bench::compare_trajectories(trajectory, sequence.ground_truth, subject);
   if (!error) {
     return;
   }
@@ -132,6 +106,9 @@ void try_outputs(const TrackOptions& options) {
   }
   if (options.json) {
     require_writable(*options.json);
+  }
+  if (options.plot) {
+    require_writable(*options.plot);
   }
 }
 
@@ -193,8 +170,8 @@ void track(const TrackOptions& options) {
   if (capture) {
     attempts.attempt([&] { finish_capture(*options.capture, recorder, tracker, json); });
   }
-  const auto live = live_trajectory(result);
-  const auto corrected = final_trajectory(result, tracker);
+  const auto live = result.poses.live();
+  const auto corrected = result.poses.corrected(tracker);
   attempts.attempt([&] { hal::write_tum_trajectory(options.out, corrected); });
   if (options.live) {
     attempts.attempt([&] { hal::write_tum_trajectory(*options.live, live); });
@@ -205,8 +182,20 @@ void track(const TrackOptions& options) {
   if (options.json) {
     attempts.attempt([&] { write_json(*options.json, json); });
   }
+  if (options.plot) {
+    attempts.attempt([&] {
+      bench::TrackPlot plot = begin_plot(tracker, sequence, json);
+      plot.frames = result.frames;
+      plot.live = live;
+      plot.corrected = corrected;
+      for (const auto& perspective : recorder.light_field().perspectives()) {
+        plot.perspectives.push_back(perspective.world_from_camera.translation);
+      }
+      bench::write_svg(*options.plot, bench::draw_track(plot));
+    });
+  }
   attempts.rethrow_first();
-  if (result.frames.empty()) {
+  if (result.poses.empty()) {
     throw config::InputError(options.sequence, std::string("no frame could be tracked: ") +
                                                    tracking::advice(result.report.last_reason()));
   }

@@ -67,7 +67,7 @@ std::string small_capture(const Recording& recording) {
 TEST(CommandLine, EveryCommandExplainsItselfWithAnExample) {
   EXPECT_THAT(lumibox("--help").out, HasSubstr("COMMAND --help"));
   for (const std::string command :
-       {"run", "demo", "track", "render", "evaluate", "import", "export", "sim"}) {
+       {"run", "demo", "track", "render", "evaluate", "import", "export", "sim", "bench"}) {
     const Outcome outcome = lumibox(command + " --help");
     EXPECT_EQ(outcome.status, 0);
     EXPECT_THAT(outcome.out, AllOf(HasSubstr("Example:"), HasSubstr("lumibox " + command)));
@@ -81,7 +81,8 @@ TEST(CommandLine, WrongUseExitsWithTwo) {
         "sim s.toml --out ''", "import '' c", "render c --views v --out o --calib ''",
         "demo --rate nan", "track walk --out t.tum --subject 1,2@3",
         "track walk --out t.tum --capture c --subject middle", "render c --views v --out o --k 0",
-        "render c --views v --out o --mode huge", "export c --format gltf --out o"}) {
+        "render c --views v --out o --mode huge", "export c --format gltf --out o",
+        "bench tracking", "bench tracking --out o --runs 0"}) {
     const Outcome outcome = lumibox(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments;
     EXPECT_FALSE(outcome.err.empty()) << arguments;
@@ -92,6 +93,8 @@ TEST(CommandLine, MissingFilesAreNamed) {
   EXPECT_COMPLAINT(lumibox("track /nowhere/walk --out /tmp/t.tum"), HasSubstr("/nowhere/walk"));
   EXPECT_COMPLAINT(lumibox("sim /nowhere/scene.toml --out /nowhere/seq"),
                    HasSubstr("/nowhere/scene.toml"));
+  EXPECT_COMPLAINT(lumibox("bench tracking --out /tmp --sequence /nowhere/walk"),
+                   HasSubstr("/nowhere/walk"));
   EXPECT_COMPLAINT(lumibox("evaluate /nowhere/capture"), HasSubstr("/nowhere/capture"));
   EXPECT_COMPLAINT(lumibox("import /nowhere/transforms.json /nowhere/capture"),
                    HasSubstr("/nowhere/transforms.json"));
@@ -110,6 +113,9 @@ TEST(CommandLine, OffersOnlyWhatItHas) {
   const Outcome geometry = lumibox("render c --views v --out o --geometry mesh");
   EXPECT_EQ(geometry.status, 2);
   EXPECT_THAT(geometry.err, AllOf(HasSubstr("--geometry"), HasSubstr("mesh not in {plane}")));
+  const Outcome bench = lumibox("bench rendering --out o");
+  EXPECT_EQ(bench.status, 2);
+  EXPECT_THAT(bench.err, HasSubstr("rendering not in {tracking,simulation}"));
   const Outcome format = lumibox("export c --format web --out o");
   EXPECT_EQ(format.status, 2);
   EXPECT_THAT(format.err, AllOf(HasSubstr("--format"), HasSubstr("web not in {")));
@@ -200,14 +206,16 @@ TEST(CommandLine, RecordingThatCannotBeTrackedLeavesItsStatisticsAndSaysWhy) {
   const Recording recording;
   const TempDir dir;
   const std::string out = (dir / "deep" / "walk").string();
-  EXPECT_COMPLAINT(lumibox("track " + recording.folder().string() + " --out " + out +
-                           ".tum --live " + out + ".live.tum --json " + out + ".json"),
-                   HasSubstr("no frame could be tracked"));
+  EXPECT_COMPLAINT(
+      lumibox("track " + recording.folder().string() + " --out " + out + ".tum --live " + out +
+              ".live.tum --json " + out + ".json --plot " + out + ".svg"),
+      HasSubstr("no frame could be tracked"));
   EXPECT_THAT(
       read_text(out + ".json"),
       AllOf(HasSubstr("\"frames\": 5"), HasSubstr("\"tracked\": 0"), HasSubstr("\"losses\": []")));
   EXPECT_TRUE(std::filesystem::exists(out + ".tum"));
   EXPECT_TRUE(std::filesystem::exists(out + ".live.tum"));
+  EXPECT_THAT(read_text(out + ".svg"), HasSubstr("5 frames, 0 tracked"));
 }
 
 TEST(CommandLine, WhatCameBeforeABrokenPictureIsKept) {
@@ -230,9 +238,19 @@ TEST(CommandLine, PlacesForResultsAreTriedBeforeTheWork) {
   EXPECT_COMPLAINT(
       lumibox("track " + recording.folder().string() + " --out " + out + " --json " + bad),
       HasSubstr((dir / "file").string()));
+  EXPECT_COMPLAINT(
+      lumibox("track " + recording.folder().string() + " --out " + out + " --plot " + bad),
+      HasSubstr((dir / "file").string()));
   EXPECT_FALSE(std::filesystem::exists(out)) << "nothing was tracked, and the trial left nothing";
   EXPECT_COMPLAINT(lumibox("evaluate /nowhere/capture --json " + dir.path().string()),
                    HasSubstr(dir.path().string() + ": cannot be written: Is a directory"));
+}
+
+TEST(CommandLine, BenchTriesItsPlaceBeforeTheWork) {
+  const TempDir dir;
+  dir.write("file", "in the way");
+  EXPECT_COMPLAINT(lumibox("bench tracking --out " + (dir / "file").string()),
+                   HasSubstr((dir / "file").string()));
 }
 
 TEST(CommandLine, AnErrorWithOneResultDoesNotCostTheOthers) {

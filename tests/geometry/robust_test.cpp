@@ -25,6 +25,14 @@ TEST(Robust, MedianOfOddAndEvenCounts) {
   EXPECT_EQ(median({4.0, 1.0, 3.0, 2.0}), 2.5);
 }
 
+TEST(Robust, QuantileIsAValueThatIsThere) {
+  EXPECT_EQ(quantile({}, 0.5), 0.0);
+  EXPECT_EQ(quantile({4.0, 1.0, 3.0, 2.0}, 0.0), 1.0);
+  EXPECT_EQ(quantile({4.0, 1.0, 3.0, 2.0}, 0.5), 2.0);
+  EXPECT_EQ(quantile({4.0, 1.0, 3.0, 2.0}, 0.51), 3.0);
+  EXPECT_EQ(quantile({4.0, 1.0, 3.0, 2.0}, 1.0), 4.0);
+}
+
 TEST(Robust, SigmaIgnoresOutliers) {
   const std::vector<double> residuals{-1.0, 1.0, -1.0, 1.0, 1000.0};
   EXPECT_DOUBLE_EQ(mad_sigma(residuals), 1.4826);

@@ -6,7 +6,14 @@
 #include "geometry/pose.h"
 #include "hal/replay/sequence.h"
 
-namespace lumibox::app {
+namespace lumibox::bench {
+
+/// How far one pose is from the true one after the alignment of its trajectory.
+struct PoseError {
+  double timestamp_s = 0.0;
+  double distance = 0.0;      ///< between the positions, in the truth's units
+  double rotation_deg = 0.0;  ///< between the orientations
+};
 
 /// How far a trajectory is from the truth.
 struct TrajectoryError {
@@ -19,6 +26,7 @@ struct TrajectoryError {
   /// RMSE of the angle true camera - subject - estimated camera; none without a subject.
   std::optional<double> subject_rmse_deg;
   geometry::Similarity truth_from_estimate;  ///< least squares over the positions
+  std::vector<PoseError> by_pose;            ///< of the poses counted, by time
 };
 
 /// Compares positions after the best similarity (a monocular map has no scale of its own). Poses
@@ -28,4 +36,4 @@ std::optional<TrajectoryError> compare_trajectories(
     const std::vector<hal::StampedPose>& estimate, const std::vector<hal::StampedPose>& truth,
     const std::optional<Eigen::Vector3d>& subject = std::nullopt, double tolerance_s = 0.02);
 
-}  // namespace lumibox::app
+}  // namespace lumibox::bench

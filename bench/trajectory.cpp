@@ -1,4 +1,4 @@
-#include "app/trajectory.h"
+#include "bench/trajectory.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <numbers>
 
-namespace lumibox::app {
+namespace lumibox::bench {
 namespace {
 
 /// The true pose nearest in time; null if there is none within the tolerance.
@@ -26,6 +26,7 @@ const hal::StampedPose* nearest_in_time(const std::vector<hal::StampedPose>& tru
 }
 
 struct PosePair {
+  double timestamp_s;
   geometry::Pose estimate;
   geometry::Pose truth;
 };
@@ -35,7 +36,7 @@ std::vector<PosePair> pair_by_time(const std::vector<hal::StampedPose>& estimate
   std::vector<PosePair> pairs;
   for (const hal::StampedPose& pose : estimate) {
     if (const auto* match = nearest_in_time(truth, pose.timestamp_s, tolerance_s)) {
-      pairs.push_back({pose.world_from_camera, match->world_from_camera});
+      pairs.push_back({pose.timestamp_s, pose.world_from_camera, match->world_from_camera});
     }
   }
   return pairs;
@@ -49,23 +50,36 @@ double rms(double sum_of_squares, std::size_t count) {
   return std::sqrt(sum_of_squares / static_cast<double>(count));
 }
 
-/// The world's turn is the one that minimises the sum of squared chords between the rotations
-/// (Markley et al., "Averaging quaternions", 2007).
-double rotation_rmse_deg(const std::vector<PosePair>& pairs) {
+/// The turn of the world that minimises the sum of squared chords between the rotations (Markley et
+/// al., "Averaging quaternions", 2007).
+Eigen::Quaterniond best_turn(const std::vector<PosePair>& pairs) {
   Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
   for (const PosePair& pair : pairs) {
     const Eigen::Quaterniond turn = pair.truth.rotation * pair.estimate.rotation.conjugate();
     sum += turn.coeffs() * turn.coeffs().transpose();
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(sum);
-  const Eigen::Quaterniond truth_from_estimate(Eigen::Vector4d(eigen.eigenvectors().col(3)));
-  double squares = 0.0;
+  return Eigen::Quaterniond(Eigen::Vector4d(eigen.eigenvectors().col(3)));
+}
+
+std::vector<PoseError> errors_by_pose(const std::vector<PosePair>& pairs,
+                                      const geometry::Similarity& truth_from_estimate) {
+  const Eigen::Quaterniond turn = best_turn(pairs);
+  std::vector<PoseError> errors;
   for (const PosePair& pair : pairs) {
-    const double angle =
-        pair.truth.rotation.angularDistance(truth_from_estimate * pair.estimate.rotation);
-    squares += angle * angle;
+    const Eigen::Vector3d place = truth_from_estimate * pair.estimate.translation;
+    errors.push_back({pair.timestamp_s, (place - pair.truth.translation).norm(),
+                      degrees(pair.truth.rotation.angularDistance(turn * pair.estimate.rotation))});
   }
-  return degrees(rms(squares, pairs.size()));
+  return errors;
+}
+
+double rms(const std::vector<PoseError>& errors, double PoseError::*part) {
+  double squares = 0.0;
+  for (const PoseError& error : errors) {
+    squares += error.*part * error.*part;
+  }
+  return rms(squares, errors.size());
 }
 
 double subject_rmse_deg(const std::vector<PosePair>& pairs,
@@ -101,18 +115,15 @@ std::optional<TrajectoryError> compare_trajectories(const std::vector<hal::Stamp
   TrajectoryError error;
   error.poses = static_cast<int>(pairs.size());
   error.truth_from_estimate = geometry::align_umeyama(estimated, actual);
-  double squares = 0.0;
-  for (Eigen::Index i = 0; i < estimated.cols(); ++i) {
-    squares += (error.truth_from_estimate * estimated.col(i) - actual.col(i)).squaredNorm();
-  }
-  error.rmse = rms(squares, pairs.size());
+  error.by_pose = errors_by_pose(pairs, error.truth_from_estimate);
+  error.rmse = rms(error.by_pose, &PoseError::distance);
   const double extent = (actual.rowwise().maxCoeff() - actual.rowwise().minCoeff()).norm();
   error.rmse_percent = extent > 0.0 ? 100.0 * error.rmse / extent : 0.0;
-  error.rotation_rmse_deg = rotation_rmse_deg(pairs);
+  error.rotation_rmse_deg = rms(error.by_pose, &PoseError::rotation_deg);
   if (subject) {
     error.subject_rmse_deg = subject_rmse_deg(pairs, error.truth_from_estimate, *subject);
   }
   return error;
 }
 
-}  // namespace lumibox::app
+}  // namespace lumibox::bench

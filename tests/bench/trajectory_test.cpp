@@ -1,11 +1,11 @@
-#include "app/trajectory.h"
+#include "bench/trajectory.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-namespace lumibox::app {
+namespace lumibox::bench {
 namespace {
 
 std::vector<hal::StampedPose> helix(int count) {
@@ -65,6 +65,22 @@ TEST(Trajectory, RotationErrorIsWhatIsLeftAfterTheWorldsTurn) {
   EXPECT_NEAR(error->rotation_rmse_deg, 0.01 * 180.0 / std::numbers::pi, 1e-6);
 }
 
+TEST(Trajectory, ErrorsByPoseAreThoseOfTheirTimes) {
+  const auto truth = helix(200);
+  auto estimate = truth;
+  estimate[50].world_from_camera.translation.z() += 0.5;
+  auto& turned = estimate[80].world_from_camera.rotation;
+  turned = geometry::exp_so3({0.1, 0.0, 0.0}) * turned;
+  const auto error = compare_trajectories(estimate, truth);
+  ASSERT_TRUE(error);
+  ASSERT_EQ(error->by_pose.size(), 200U);
+  EXPECT_EQ(error->by_pose[50].timestamp_s, truth[50].timestamp_s);
+  EXPECT_NEAR(error->by_pose[50].distance, 0.5, 0.02);
+  EXPECT_LT(error->by_pose[80].distance, 0.02);
+  EXPECT_NEAR(error->by_pose[80].rotation_deg, 0.1 * 180.0 / std::numbers::pi, 0.1);
+  EXPECT_LT(error->by_pose[50].rotation_deg, 0.1);
+}
+
 TEST(Trajectory, SubjectErrorIsTheAngleSeenFromTheSubject) {
   // A ring of cameras around the subject, every other one displaced along the ring by 0.02 rad and
   // back: no similarity takes that away.
@@ -98,4 +114,4 @@ TEST(Trajectory, PosesWithoutATruthOfTheirTimeAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace lumibox::app
+}  // namespace lumibox::bench

@@ -1,0 +1,210 @@
+#include <fmt/core.h>
+
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "app/commands/commands.h"
+#include "app/commands/support.h"
+#include "app/progress.h"
+#include "app/scenes.h"
+#include "bench/footage.h"
+#include "bench/sim_frame.h"
+#include "bench/sweep_plot.h"
+#include "bench/tracking_bench.h"
+#include "config/error.h"
+#include "geometry/robust.h"
+#include "hal/replay/replay_camera.h"
+#include "hal/sim/scene.h"
+#include "hal/sim/sim_camera.h"
+#include "hal/sim/virtual_clock.h"
+
+namespace lumibox::app {
+namespace {
+
+constexpr const char* kScene = "toy";
+
+bench::Footage film_scene(std::int64_t frames) {
+  const auto scene = hal::load_scene(find_scene(kScene));
+  hal::VirtualClock clock;
+  hal::SimCamera camera(scene, clock);
+  camera.start();
+  bench::Footage footage = bench::film(std::string("simulated ") + kScene, camera, clock, frames);
+  for (const bench::Footage::Frame& frame : footage.frames) {
+    const double time_s = 1e-9 * static_cast<double>(frame.timestamp_ns);
+    footage.truth.push_back({time_s, scene->world_from_camera(time_s)});
+  }
+  return footage;
+}
+
+bench::Footage film_sequence(const std::filesystem::path& path, std::int64_t frames) {
+  const hal::Sequence sequence = hal::open_sequence(path);
+  hal::VirtualClock clock;
+  hal::ReplayCamera camera(sequence, clock, hal::Pacing::Lockstep);
+  camera.start();
+  const std::filesystem::path name = path.has_filename() ? path : path.parent_path();
+  bench::Footage footage = bench::film(name.filename().string(), camera, clock, frames);
+  footage.truth = sequence.ground_truth;
+  return footage;
+}
+
+/// Measurements go to the file one by one, so that a run that is broken off keeps what it has.
+class Lines {
+ public:
+  explicit Lines(const std::filesystem::path& file) : file_(file), stream_(file) {}
+
+  void add(const nlohmann::json& json) {
+    stream_ << json.dump() << std::endl;
+    if (!stream_) throw config::InputError(file_, "cannot be written");
+  }
+
+ private:
+  std::filesystem::path file_;
+  std::ofstream stream_;
+};
+
+/// The medians of a variation's runs.
+bench::SweepPoint median_of(const bench::Variation& variation,
+                            const std::vector<bench::TrackingResult>& runs) {
+  std::vector<double> ms;
+  std::vector<double> errors;
+  std::vector<double> shares;
+  std::vector<double> mapping_ms;
+  for (const bench::TrackingResult& run : runs) {
+    ms.push_back(run.cpu_ms.median);
+    shares.push_back(static_cast<double>(run.tracked) / static_cast<double>(run.frames));
+    mapping_ms.push_back(run.mapping_ms / static_cast<double>(run.frames));
+    if (run.live) errors.push_back(run.live->percent);
+  }
+  bench::SweepPoint point;
+  point.value = variation.value;
+  point.is_default = variation.is_default;
+  point.ms = geometry::median(ms);
+  point.tracked_share = geometry::median(shares);
+  point.mapping_ms = geometry::median(mapping_ms);
+  if (!errors.empty()) point.error = geometry::median(errors);
+  return point;
+}
+
+void print_head() {
+  std::printf("%-26s %6s %10s %10s %12s %9s\n", "setting", "value", "tracker ms", "mapper ms",
+              "live error %", "tracked %");
+}
+
+void print_curve(const bench::SweepCurve& curve) {
+  const auto knee = bench::knee(curve);
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    const bench::SweepPoint& point = curve.points[i];
+    const std::string error = point.error ? fmt::format("{:.4f}", *point.error) : "-";
+    std::printf("%-26s %6g %10.2f %10.2f %12s %9.1f%s%s\n", curve.setting.c_str(), point.value,
+                point.ms, point.mapping_ms, error.c_str(), 100.0 * point.tracked_share,
+                point.is_default ? "  default" : "", i == knee ? "  knee" : "");
+  }
+}
+
+void print_times(const char* what, const bench::FrameTimes& wall, const bench::FrameTimes& cpu) {
+  std::printf("%s: %.2f ms median, %.2f ms p95; by its thread's processor time %.2f and %.2f ms\n",
+              what, wall.median, wall.p95, cpu.median, cpu.p95);
+}
+
+/// The default as on the box, and against ORB.
+void measure_default(const bench::Footage& footage, const config::Config& config, Lines& lines) {
+  const auto realtime = bench::measure_tracking(footage, config.tracking, bench::Pace::Recorded, 0);
+  lines.add(bench::realtime_to_json(footage, realtime));
+  const auto tracker = bench::measure_tracking(footage, config.tracking, bench::Pace::Awaited, 0);
+  const auto orb = bench::measure_orb(footage);
+  lines.add(bench::to_json(footage, orb, tracker));
+  std::printf("%s, %lld frames\n", footage.name.c_str(), static_cast<long long>(tracker.frames));
+  print_times("  tracker, mapper beside it, as recorded", realtime.wall_ms, realtime.cpu_ms);
+  print_times("  tracker alone", tracker.wall_ms, tracker.cpu_ms);
+  std::printf("  before there is a map: %.2f ms median, %.2f ms p95\n",
+              tracker.initialising_ms.median, tracker.initialising_ms.p95);
+  print_times("  ORB, 1000 features, one thread", orb.wall_ms, orb.cpu_ms);
+  if (tracker.unrefined && tracker.refined) {
+    std::printf("  final adjustment: %.3f %% to %.3f %% of the extent in %.0f ms\n",
+                tracker.unrefined->percent, tracker.refined->percent, tracker.refinement_ms);
+  }
+  std::printf("  tracker / ORB: %.2f, by processor time %.2f\n",
+              tracker.wall_ms.median / orb.wall_ms.median,
+              tracker.cpu_ms.median / orb.cpu_ms.median);
+}
+
+std::vector<bench::SweepCurve> sweep(const bench::Footage& footage, const config::Config& config,
+                                     int runs, Lines& lines) {
+  const auto variations = bench::tracking_variations(config.tracking, footage.camera.width());
+  std::vector<bench::SweepCurve> curves;
+  Progress progress("measuring " + footage.name, std::ssize(variations) * runs);
+  std::int64_t done = 0;
+  for (const bench::Variation& variation : variations) {
+    bench::Footage shown = footage;
+    for (int i = 0; i < variation.halvings; ++i) shown = bench::halved(shown);
+    std::vector<bench::TrackingResult> results;
+    for (int run = 0; run < runs; ++run) {
+      const auto seed = static_cast<std::uint32_t>(run);
+      results.push_back(
+          bench::measure_tracking(shown, variation.options, bench::Pace::Awaited, seed));
+      lines.add(bench::to_json(footage, variation, seed, results.back()));
+      progress.show(++done);
+    }
+    if (curves.empty() || curves.back().setting != variation.setting) {
+      curves.push_back({variation.setting, footage.name, {}});
+    }
+    curves.back().points.push_back(median_of(variation, results));
+  }
+  return curves;
+}
+
+void bench_tracking(const BenchOptions& options, const config::Config& config) {
+  const std::filesystem::path json = options.out / "tracking.jsonl";
+  const std::filesystem::path plot = options.out / "tracking.svg";
+  require_writable(json);
+  require_writable(plot);
+  std::vector<bench::Footage> footages;
+  for (const auto& sequence : options.sequences) {
+    footages.push_back(film_sequence(sequence, options.frames));
+  }
+  footages.push_back(film_scene(options.frames));
+
+  Lines lines(json);
+  std::vector<bench::SweepCurve> curves;
+  for (const bench::Footage& footage : footages) {
+    measure_default(footage, config, lines);
+    print_head();
+    for (const bench::SweepCurve& curve : sweep(footage, config, options.runs, lines)) {
+      print_curve(curve);
+      curves.push_back(curve);
+    }
+  }
+  bench::write_svg(
+      plot, bench::draw_sweep("What accuracy costs: live error over the tracker's time", curves));
+  std::printf("%s\n%s\n", json.c_str(), plot.c_str());
+}
+
+void bench_simulation(const BenchOptions& options) {
+  const std::filesystem::path json = options.out / "simulation.jsonl";
+  require_writable(json);
+  Lines lines(json);
+  for (const char* name :
+       {"toy", "statue_orbit", "facade", "crystal_ball", "person", "night_webcam"}) {
+    const auto line =
+        bench::measure_sim_frame(hal::load_scene(find_scene(name)), name, options.frames);
+    lines.add(line);
+    std::printf("%-16s %8.1f ms median of a frame, %8.1f ms p95\n", name,
+                line["cpu_ms"]["median"].get<double>(), line["cpu_ms"]["p95"].get<double>());
+  }
+  std::printf("%s\n", json.c_str());
+}
+
+}  // namespace
+
+void run_bench(const BenchOptions& options) {
+  const config::Config config = load_config(options.sources);
+  if (options.what == "simulation") {
+    bench_simulation(options);
+  } else {
+    bench_tracking(options, config);
+  }
+}
+
+}  // namespace lumibox::app

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/svg.h"
+
+namespace lumibox::bench {
+
+/// One value of a setting, the median of its runs.
+struct SweepPoint {
+  double value = 0.0;
+  bool is_default = false;
+  double ms = 0.0;              ///< processor time of the tracker's thread, median over frames
+  std::optional<double> error;  ///< none: no truth, or too little tracked to compare
+  double tracked_share = 1.0;
+  double mapping_ms = 0.0;  ///< of the mapper, mean per frame; not drawn
+};
+
+/// What a setting costs and brings on one footage, in ascending order of its value.
+struct SweepCurve {
+  std::string setting;
+  std::string footage;
+  std::vector<SweepPoint> points;
+};
+
+/// The knee: of the points that track as many frames as the best (to 5 %) and are at most 10 % less
+/// accurate than the most accurate of these, the cheapest. None without errors.
+std::optional<std::size_t> knee(const SweepCurve& curve);
+
+/// A page with one diagram per setting: error over milliseconds, a line per footage, the default
+/// and the knee marked.
+Svg draw_sweep(const std::string& title, const std::vector<SweepCurve>& curves);
+
+}  // namespace lumibox::bench
