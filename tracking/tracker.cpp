@@ -1,12 +1,9 @@
 #include "tracking/tracker.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numbers>
 
-#include "geometry/robust.h"
 #include "tracking/initialiser.h"
+#include "tracking/keyframe_chooser.h"
 #include "tracking/map_tracking.h"
 #include "tracking/mapper.h"
 #include "tracking/motion_model.h"
@@ -17,15 +14,11 @@
 namespace lumibox::tracking {
 namespace {
 
-constexpr int kMinInliers = 20;                // fewer do not hold six degrees of freedom
-constexpr int kMinGoodInliers = 40;            // fewer are not good enough to record with
-constexpr double kVerifiedShare = 0.35;        // of points found again after relocalisation
-constexpr double kMinContrast = 6.0;           // grey levels; a dark or covered lens shows less
-constexpr int kMinKeyframeGap = 4;             // frames
-constexpr std::size_t kMaxEvidence = 100000;   // about a hundred frames' worth
-constexpr double kRefreshShare = 0.5;          // of the nearest keyframe's points still measured
-constexpr double kMinRefreshBaseline = 0.012;  // of the depth: without a baseline, no new points
-constexpr int kTurnTries = 15;                 // frames from one try to relocalise to the next
+constexpr int kMinInliers = 20;          // fewer do not hold six degrees of freedom
+constexpr int kMinGoodInliers = 40;      // fewer are not good enough to record with
+constexpr double kVerifiedShare = 0.35;  // of points found again after relocalisation
+constexpr double kMinContrast = 6.0;     // grey levels; a dark or covered lens shows less
+constexpr int kTurnTries = 15;           // frames from one try to relocalise to the next
 
 }  // namespace
 
@@ -39,7 +32,8 @@ class Tracker::Impl {
         mapper_(camera, options, mapping),
         relocaliser_(camera, options, seed),
         motion_(camera),
-        turn_(camera, options) {}
+        turn_(camera, options),
+        chooser_(camera, options) {}
 
   TrackedFrame track(const hal::Image& gray, std::int64_t index, std::int64_t timestamp_ns) {
     TrackedFrame result;
@@ -56,8 +50,15 @@ class Tracker::Impl {
       jumped_ = false;
       const auto found = lost_ ? relocalise(*frame) : localise_from_motion(*frame);
       judge(found, frame, result);
-      complete_keyframe(result.state == TrackingState::Good);
-      if (result.state == TrackingState::Good) request_keyframe_if_new(frame, *found);
+      const bool good = result.state == TrackingState::Good;
+      if (auto request = chooser_.complete(motion_); request && good) {
+        mapper_.request(std::move(*request));
+      }
+      if (good && !mapper_.busy()) {
+        auto request =
+            chooser_.consider(*map_, {anchor_, anchor_from_camera_}, frame, *found, motion_);
+        if (request) mapper_.request(std::move(*request));
+      }
     }
     return result;
   }
@@ -199,7 +200,8 @@ class Tracker::Impl {
     }
     camera_from_world_ = found->pose.camera_from_world;
     choose_anchor();
-    gather_evidence(*found);
+    show(*found);
+    chooser_.note(*map_, *found);
     last_good_ = good ? frame : nullptr;
     if (good) last_pose_ns_ = timestamp_ns_;
     report_pose(good ? TrackingState::Good : TrackingState::Poor, found->inliers, result);
@@ -255,77 +257,10 @@ class Tracker::Impl {
     anchor_from_camera_ = keyframe(anchor_).camera_from_world * world_from_camera;
   }
 
-  void gather_evidence(const Localisation& found) {
-    std::vector<std::uint32_t> inliers;
+  void show(const Localisation& found) {
     for (const Measurement& m : found.measurements) {
-      if (!m.inlier) continue;
-      inliers.push_back(m.point);
-      visible_.push_back(m.position);
+      if (m.inlier) visible_.push_back(m.position);
     }
-    std::sort(inliers.begin(), inliers.end());
-    // A camera that stands still asks for no keyframe, for hours perhaps: the older half is
-    // dropped.
-    if (evidence_.size() > kMaxEvidence) {
-      evidence_.erase(evidence_.begin(), evidence_.begin() + kMaxEvidence / 2);
-    }
-    for (const std::uint32_t point : found.attempted) {
-      evidence_.push_back(
-          {map_->points[point].id, std::binary_search(inliers.begin(), inliers.end(), point)});
-    }
-  }
-
-  double median_depth(const Localisation& found) const {
-    std::vector<double> depths;
-    for (const Measurement& m : found.measurements) {
-      if (m.inlier) depths.push_back((camera_from_world_ * m.position).z());
-    }
-    return geometry::median(std::move(depths));
-  }
-
-  void request_keyframe_if_new(const std::shared_ptr<const Pyramid>& frame,
-                               const Localisation& found) {
-    ++frames_since_keyframe_;
-    if (frames_since_keyframe_ < kMinKeyframeGap || mapper_.busy()) return;
-    const double baseline = anchor_from_camera_.translation.norm() / median_depth(found);
-    const bool parallax =
-        baseline > std::tan(options_.keyframe_parallax_deg * std::numbers::pi / 180.0);
-    const bool refresh = found.inliers < kRefreshShare * std::min(keyframe(anchor_).points,
-                                                                  options_.max_measurements) &&
-                         baseline > kMinRefreshBaseline;
-    if (!parallax && !refresh) return;
-    KeyframeRequest request{anchor_, anchor_from_camera_, found.pose.readout_twist, frame,
-                            {},      std::move(evidence_)};
-    evidence_.clear();
-    for (const Measurement& m : found.measurements) {
-      if (m.inlier)
-        request.sightings.emplace_back(map_->points[m.point].id, Sighting{-1, m.pixel, m.level});
-    }
-    frames_since_keyframe_ = 0;
-    if (camera_.profile().readout_s == 0.0 || !motion_.velocity()) {
-      mapper_.request(std::move(request));
-    } else {
-      pending_.emplace(
-          PendingKeyframe{std::move(request), found, *motion_.velocity(), motion_.interval_s()});
-    }
-  }
-
-  /// Of a rolling shutter a keyframe waits for the frame after it: the motion during its readout is
-  /// then known from both sides, to the second order, and its pose with it.
-  void complete_keyframe(bool has_next) {
-    if (!pending_) return;
-    PendingKeyframe p = std::move(*pending_);
-    pending_.reset();
-    if (!has_next || !motion_.velocity()) return;
-    const geometry::Vector6d velocity =
-        (p.interval_s * p.velocity + motion_.interval_s() * *motion_.velocity()) /
-        (p.interval_s + motion_.interval_s());
-    p.found.pose.readout_twist = camera_.profile().readout_s * velocity;
-    const PoseEstimate estimate = estimate_pose(camera_, p.found.measurements, p.found.pose, 10);
-    p.request.reference_from_camera = p.request.reference_from_camera *
-                                      p.found.pose.camera_from_world *
-                                      estimate.pose.camera_from_world.inverse();
-    p.request.readout_twist = estimate.pose.readout_twist;
-    mapper_.request(std::move(p.request));
   }
 
   const geometry::Camera camera_;
@@ -335,6 +270,7 @@ class Tracker::Impl {
   Relocaliser relocaliser_;
   MotionModel motion_;
   TurnFollower turn_;
+  KeyframeChooser chooser_;
 
   std::shared_ptr<const MapView> map_;  // the copy in use; null before initialisation
   geometry::Pose camera_from_world_;    // of the last frame with a pose
@@ -349,17 +285,7 @@ class Tracker::Impl {
   int bad_frames_ = 0;
   std::int64_t timestamp_ns_ = 0;  // of the present frame
   std::int64_t last_pose_ns_ = 0;  // of the last good one
-  int frames_since_keyframe_ = 0;
-
-  struct PendingKeyframe {
-    KeyframeRequest request;
-    Localisation found;
-    geometry::Vector6d velocity;  // since the frame before it
-    double interval_s;            // since then
-  };
-  std::optional<PendingKeyframe> pending_;
   int relocalisations_ = 0;
-  std::vector<PointEvidence> evidence_;
   std::vector<Eigen::Vector3d> visible_;
 };
 
