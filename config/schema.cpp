@@ -264,8 +264,10 @@ std::vector<Key> schema(Config& c) {
 }
 
 // Ranges beyond these depend on the picture's size: fault_of() has them.
-std::vector<Key> schema(CameraProfile& p) {
+std::vector<Key> schema(ProfileFile& file) {
+  CameraProfile& p = file.profile;
   return {
+      {"", "model", &file.model, "name", 0, 0, {"opencv", "fisheye"}, {}},
       {"", "width", &p.width, "pixels", 8, 16384, {}, {}},
       {"", "height", &p.height, "pixels", 8, 16384, {}, {}},
       {"", "fx", &p.fx, "pixels", 0, 1e7, {}, {}},
@@ -277,6 +279,7 @@ std::vector<Key> schema(CameraProfile& p) {
       {"", "p1", &p.p1, "distortion", -100, 100, {}, {}},
       {"", "p2", &p.p2, "distortion", -100, 100, {}, {}},
       {"", "k3", &p.k3, "distortion", -100, 100, {}, {}},
+      {"", "k4", &p.k4, "distortion", -100, 100, {}, {}},
       {"", "fps", &p.fps, "Hz", 0.01, 1000, {}, {}},
       {"", "readout_s", &p.readout_s, "seconds", 0, 1, {}, {}},
   };
