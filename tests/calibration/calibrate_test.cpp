@@ -92,6 +92,7 @@ TEST_P(Calibrate, DropsAViewThatContradictsTheOthers) {
     corner.id = corner.id / 9 * 9 + (corner.id + 1) % 9;
   }
   const Calibration found = calibration_of(request_for(camera_), sightings);
+  ASSERT_EQ(found.views.size(), sightings.size());
   for (std::size_t i = 0; i < found.views.size(); ++i) {
     EXPECT_EQ(found.views[i].dropped, i == 5) << i;
   }
