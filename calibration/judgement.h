@@ -28,7 +28,7 @@ double largest_tilt(std::span<const geometry::Pose> camera_from_board);
 
 /// Largest angle between the board's normals in two views, radians: 0 if all planes are parallel,
 /// from which no lens can be found however the board is moved or turned in its plane (Zhang 2000,
-/// section 3.3).
+/// section 4).
 double tilt_spread(std::span<const geometry::Pose> camera_from_board);
 
 /// One corner could be a wrong one. (OpenCV's samples, a good set, have four in the sparsest.)
