@@ -1,6 +1,7 @@
 #include "app/devices.h"
 
 #include <charconv>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -58,7 +59,8 @@ std::unique_ptr<hal::Clock> open_clock(const std::string& text) {
   refuse("clock", text, "system and virtual");
 }
 
-std::unique_ptr<hal::Camera> open_camera(const std::string& text, const hal::Clock& clock) {
+std::unique_ptr<hal::Camera> open_camera(const std::string& text, const std::string& calibration,
+                                         const hal::Clock& clock) {
   if (text.empty()) {
     throw config::InputError(
         "devices.camera is not set; expected sim:SCENE.toml or replay:SEQUENCE, in a --config file "
@@ -66,13 +68,19 @@ std::unique_ptr<hal::Camera> open_camera(const std::string& text, const hal::Clo
   }
   const Name name = split(text);
   if (name.kind == "sim") {
+    if (!calibration.empty()) {
+      throw config::InputError("devices.calibration: \"" + calibration +
+                               "\" with a simulated camera, which has its own; expected none");
+    }
     return std::make_unique<hal::SimCamera>(
         hal::load_scene(what_of(name, "camera", "sim:SCENE.toml")), clock);
   }
   if (name.kind == "replay") {
     return std::make_unique<hal::ReplayCamera>(
-        hal::open_sequence(what_of(name, "camera", "replay:SEQUENCE")), clock,
-        hal::Pacing::Recorded);
+        hal::open_sequence(
+            what_of(name, "camera", "replay:SEQUENCE"),
+            calibration.empty() ? std::nullopt : std::optional<std::filesystem::path>(calibration)),
+        clock, hal::Pacing::Recorded);
   }
   refuse("camera", text, "sim:SCENE.toml and replay:SEQUENCE");
 }
@@ -128,7 +136,7 @@ Devices open_devices(const config::Config& config) {
   Devices devices;
   devices.clock = open_clock(options.clock);
   devices.lockstep = options.clock == "virtual";
-  devices.camera = open_camera(options.camera, *devices.clock);
+  devices.camera = open_camera(options.camera, options.calibration, *devices.clock);
   devices.buttons = open_buttons(options.buttons, config.controls.long_press_s, *devices.clock);
   devices.display = open_display(options.display);
   devices.display->make_current();

@@ -13,6 +13,18 @@ struct Quantity {
   double max;
 };
 
+/// A coefficient that the model does not have would be ignored by those who use the profile.
+std::optional<std::string> foreign_coefficient(const CameraProfile& c) {
+  const bool fisheye = c.model == LensModel::Fisheye;
+  std::ostringstream message;
+  if (fisheye && c.p1 != 0.0) message << "p1 is " << c.p1;
+  if (fisheye && c.p1 == 0.0 && c.p2 != 0.0) message << "p2 is " << c.p2;
+  if (!fisheye && c.k4 != 0.0) message << "k4 is " << c.k4;
+  if (message.str().empty()) return std::nullopt;
+  message << "; expected 0 of a lens of the model \"" << (fisheye ? "fisheye" : "opencv") << '"';
+  return message.str();
+}
+
 }  // namespace
 
 std::optional<std::string> fault_of(const CameraProfile& profile) {
@@ -31,6 +43,7 @@ std::optional<std::string> fault_of(const CameraProfile& profile) {
       {"p1", profile.p1, -100, 100},
       {"p2", profile.p2, -100, 100},
       {"k3", profile.k3, -100, 100},
+      {"k4", profile.k4, -100, 100},
       {"fps", profile.fps, 0.01, 1000},
       {"readout_s", profile.readout_s, 0, 1},
   };
@@ -41,7 +54,7 @@ std::optional<std::string> fault_of(const CameraProfile& profile) {
       return message.str();
     }
   }
-  return std::nullopt;
+  return foreign_coefficient(profile);
 }
 
 }  // namespace lumibox::config

@@ -54,6 +54,11 @@ struct Aperture {
   double gate_deg = 0.5;  ///< angle at the focus between two of them
 };
 
+struct Calibration {
+  int min_views = 8;          ///< pictures of the board that the lens must explain
+  double max_error_px = 1.0;  ///< RMS reprojection error above which a calibration is refused
+};
+
 struct Controls {
   double long_press_s = 0.6;     ///< held this long, a press is a long one
   double orbit_period_s = 12.0;  ///< one round of the automatic orbit in review
@@ -63,6 +68,7 @@ struct Controls {
 struct Devices {
   std::string clock = "system";               ///< system, or virtual: as fast as the work allows
   std::string camera;                         ///< sim:SCENE.toml or replay:SEQUENCE
+  std::string calibration;                    ///< of the camera, in place of a recording's own
   std::string buttons = "none";               ///< none, or script:FILE
   std::string display = "offscreen:640x480";  ///< offscreen:WIDTHxHEIGHT
 };
@@ -77,6 +83,7 @@ struct Config {
   Capture capture;
   Render render;
   Aperture aperture;
+  Calibration calibration;
   Controls controls;
   Devices devices;
   Log log;

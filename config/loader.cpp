@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <charconv>
 #include <iterator>
+#include <limits>
+#include <sstream>
 
 #include "config/error.h"
 #include "config/input_file.h"
@@ -181,8 +183,8 @@ Config load(const Sources& sources) {
 }
 
 CameraProfile load_camera_profile(const fs::path& file) {
-  CameraProfile profile;
-  const Keys keys = schema(profile);
+  ProfileFile found;
+  const Keys keys = schema(found);
   const toml::table root = parse(file);
   for (const auto& [name, node] : root) {
     read_key(name, node, "", keys, file);
@@ -192,10 +194,28 @@ CameraProfile load_camera_profile(const fs::path& file) {
       throw InputError(file, std::string("no key '") + required + "'; a camera profile needs it");
     }
   }
-  if (const std::optional<std::string> fault = fault_of(profile)) {
+  found.profile.model = found.model == "fisheye" ? LensModel::Fisheye : LensModel::Opencv;
+  if (const std::optional<std::string> fault = fault_of(found.profile)) {
     throw InputError(file, *fault);
   }
-  return profile;
+  return found.profile;
+}
+
+std::string profile_text(const CameraProfile& profile) {
+  ProfileFile file{profile, profile.model == LensModel::Fisheye ? "fisheye" : "opencv"};
+  std::ostringstream text;
+  text.precision(std::numeric_limits<double>::max_digits10);
+  for (const Key& key : schema(file)) {
+    text << key.name << " = ";
+    if (const auto* word = std::get_if<std::string*>(&key.member)) {
+      text << '"' << **word << "\"\n";
+    } else if (const auto* whole = std::get_if<int*>(&key.member)) {
+      text << **whole << '\n';
+    } else {
+      text << *std::get<double*>(key.member) << '\n';
+    }
+  }
+  return text.str();
 }
 
 }  // namespace lumibox::config

@@ -21,8 +21,11 @@ struct Sources {
 /// assignment), the key, and what is allowed.
 Config load(const Sources& sources);
 
-/// A camera profile file (TOML: width, height, fx, fy, cx, cy, k1 … k3, fps, readout_s). Errors as
-/// load().
+/// A camera profile file (TOML: model, width, height, fx, fy, cx, cy, k1, k2, p1, p2, k3, k4, fps,
+/// readout_s). Errors as load().
 CameraProfile load_camera_profile(const std::filesystem::path& file);
+
+/// The content of such a file; reading it gives the same profile to the last bit.
+std::string profile_text(const CameraProfile& profile);
 
 }  // namespace lumibox::config

@@ -230,6 +230,23 @@ std::vector<Key> schema(Config& c) {
        {},
        "a synthetic aperture of six degrees from twelve pictures"},
 
+      {"calibration",
+       "min_views",
+       &c.calibration.min_views,
+       "pictures",
+       4,
+       1000,
+       {},
+       "Zhang (2000), figure 2: beyond, more pictures lower the error slowly"},
+      {"calibration",
+       "max_error_px",
+       &c.calibration.max_error_px,
+       "pixels",
+       0.05,
+       100,
+       {},
+       "a webcam and a printed board stay below 0.5"},
+
       {"controls",
        "long_press_s",
        &c.controls.long_press_s,
@@ -249,6 +266,14 @@ std::vector<Key> schema(Config& c) {
 
       {"devices", "clock", &c.devices.clock, "name", 0, 0, {"system", "virtual"}, "the box"},
       {"devices", "camera", &c.devices.camera, "device", 0, 0, {}, "none is right for every box"},
+      {"devices",
+       "calibration",
+       &c.devices.calibration,
+       "file",
+       0,
+       0,
+       {},
+       "recordings have their own"},
       {"devices", "buttons", &c.devices.buttons, "device", 0, 0, {}, "a box without buttons shows"},
       {"devices", "display", &c.devices.display, "device", 0, 0, {}, "works without a screen"},
 
@@ -264,8 +289,10 @@ std::vector<Key> schema(Config& c) {
 }
 
 // Ranges beyond these depend on the picture's size: fault_of() has them.
-std::vector<Key> schema(CameraProfile& p) {
+std::vector<Key> schema(ProfileFile& file) {
+  CameraProfile& p = file.profile;
   return {
+      {"", "model", &file.model, "name", 0, 0, {"opencv", "fisheye"}, {}},
       {"", "width", &p.width, "pixels", 8, 16384, {}, {}},
       {"", "height", &p.height, "pixels", 8, 16384, {}, {}},
       {"", "fx", &p.fx, "pixels", 0, 1e7, {}, {}},
@@ -277,6 +304,7 @@ std::vector<Key> schema(CameraProfile& p) {
       {"", "p1", &p.p1, "distortion", -100, 100, {}, {}},
       {"", "p2", &p.p2, "distortion", -100, 100, {}, {}},
       {"", "k3", &p.k3, "distortion", -100, 100, {}, {}},
+      {"", "k4", &p.k4, "distortion", -100, 100, {}, {}},
       {"", "fps", &p.fps, "Hz", 0.01, 1000, {}, {}},
       {"", "readout_s", &p.readout_s, "seconds", 0, 1, {}, {}},
   };

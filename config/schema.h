@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "config/camera_profile.h"
@@ -11,7 +12,13 @@ namespace lumibox::config {
 /// All keys of lumibox.toml, in its order, bound to the members of `config`.
 std::vector<Key> schema(Config& config);
 
-/// All keys of a camera profile, bound to the members of `profile`.
-std::vector<Key> schema(CameraProfile& profile);
+/// A camera profile as its file has it, where the model is a word.
+struct ProfileFile {
+  CameraProfile profile;
+  std::string model = "opencv";
+};
+
+/// All keys of a camera profile, bound to the members of `file`.
+std::vector<Key> schema(ProfileFile& file);
 
 }  // namespace lumibox::config

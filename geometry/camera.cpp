@@ -1,6 +1,7 @@
 #include "geometry/camera.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -12,12 +13,42 @@ struct Distorted {
   Eigen::Matrix2d jacobian;
 };
 
+/// Factor by which a radius changes, and its derivative by the squared radius.
+struct Radial {
+  double factor = 1.0;
+  double slope = 0.0;
+};
+
+Radial polynomial(const config::CameraProfile& c, double r2) {
+  return {1.0 + r2 * (c.k1 + r2 * (c.k2 + r2 * c.k3)), c.k1 + r2 * (2.0 * c.k2 + r2 * 3.0 * c.k3)};
+}
+
+/// Kannala and Brandt (2006), equation 6, as cv::fisheye has it: distance from the principal point,
+/// in focal lengths, of a ray at the angle theta to the optical axis; and its derivative by theta.
+double fisheye_radius(const config::CameraProfile& c, double theta) {
+  const double t2 = theta * theta;
+  return theta * (1.0 + t2 * (c.k1 + t2 * (c.k2 + t2 * (c.k3 + t2 * c.k4))));
+}
+double fisheye_slope(const config::CameraProfile& c, double theta) {
+  const double t2 = theta * theta;
+  return 1.0 + t2 * (3.0 * c.k1 + t2 * (5.0 * c.k2 + t2 * (7.0 * c.k3 + t2 * 9.0 * c.k4)));
+}
+
+Radial fisheye(const config::CameraProfile& c, double r2) {
+  constexpr double kOnTheAxis = 1e-30;  // below, the factor is 1 to the last bit
+  if (r2 < kOnTheAxis) return {};
+  const double r = std::sqrt(r2);
+  const double theta = std::atan(r);
+  const double factor = fisheye_radius(c, theta) / r;
+  return {factor, (fisheye_slope(c, theta) / (1.0 + r2) - factor) / (2.0 * r2)};
+}
+
 Distorted distort_normalised(const config::CameraProfile& c, const Eigen::Vector2d& n) {
   const double x = n.x();
   const double y = n.y();
   const double r2 = x * x + y * y;
-  const double radial = 1.0 + r2 * (c.k1 + r2 * (c.k2 + r2 * c.k3));
-  const double slope = c.k1 + r2 * (2.0 * c.k2 + r2 * 3.0 * c.k3);  // d radial / d r2
+  const auto [radial, slope] =
+      c.model == config::LensModel::Fisheye ? fisheye(c, r2) : polynomial(c, r2);
   Distorted d;
   d.point.x() = x * radial + 2.0 * c.p1 * x * y + c.p2 * (r2 + 2.0 * x * x);
   d.point.y() = y * radial + c.p1 * (r2 + 2.0 * y * y) + 2.0 * c.p2 * x * y;
@@ -28,39 +59,78 @@ Distorted distort_normalised(const config::CameraProfile& c, const Eigen::Vector
   return d;
 }
 
-/// Smallest r2 > 0 at which d(r * radial(r))/dr = 1 + 3 k1 r2 + 5 k2 r4 + 7 k3 r6 reaches zero, by
-/// a scan and bisection over every field of view a rectilinear lens can have (r <= 10 is 168
-/// degrees).
-double find_fold(const config::CameraProfile& c) {
-  const auto derivative = [&c](double r2) {
-    return 1.0 + r2 * (3.0 * c.k1 + r2 * (5.0 * c.k2 + r2 * 7.0 * c.k3));
-  };
-  double previous = 0.0;
-  for (int i = 1; i <= 2000; ++i) {
-    const double r = 0.005 * i;
-    const double r2 = r * r;
-    if (derivative(r2) <= 0.0) {
-      double low = previous;
-      double high = r2;
-      for (int step = 0; step < 60; ++step) {
-        const double middle = 0.5 * (low + high);
-        (derivative(middle) <= 0.0 ? high : low) = middle;
-      }
-      return low;
+/// Smallest x in (0, end] at which a function that begins above zero is not, by a scan and
+/// bisection; none if there is none.
+template <typename Function>
+std::optional<double> first_zero(double end, const Function& function) {
+  constexpr int kSteps = 2000;
+  for (int i = 1; i <= kSteps; ++i) {
+    double low = end * (i - 1) / kSteps;
+    double high = end * i / kSteps;
+    if (function(high) > 0.0) continue;
+    for (int step = 0; step < 60; ++step) {
+      const double middle = 0.5 * (low + high);
+      (function(middle) <= 0.0 ? high : low) = middle;
     }
-    previous = r2;
+    return low;
   }
-  return std::numeric_limits<double>::infinity();
+  return std::nullopt;
+}
+
+/// Squared radius at which d(r * radial(r))/dr = 1 + 3 k1 r2 + 5 k2 r4 + 7 k3 r6 reaches zero, in
+/// every field of view a rectilinear lens can have (r <= 10 is 168 degrees).
+double find_fold(const config::CameraProfile& c) {
+  const auto fold = first_zero(10.0, [&c](double r) {
+    const double r2 = r * r;
+    return 1.0 + r2 * (3.0 * c.k1 + r2 * (5.0 * c.k2 + r2 * 7.0 * c.k3));
+  });
+  return fold ? *fold * *fold : std::numeric_limits<double>::infinity();
+}
+
+/// The same of a fisheye lens. It may see behind itself, but beyond a twentieth of a degree before
+/// the image plane normalised coordinates say nothing any more.
+double find_fisheye_fold(const config::CameraProfile& c) {
+  constexpr double kLargestRadius = 1000.0;
+  const double end = std::atan(kLargestRadius);
+  const auto fold = first_zero(end, [&c](double theta) { return fisheye_slope(c, theta); });
+  const double r = std::tan(fold.value_or(end));
+  return r * r;
+}
+
+double fold_of(const config::CameraProfile& c, bool has_distortion) {
+  if (c.model == config::LensModel::Fisheye) return find_fisheye_fold(c);
+  return has_distortion ? find_fold(c) : std::numeric_limits<double>::infinity();
+}
+
+/// Normalised coordinates of distorted ones. On the way to the fold the radius only grows with the
+/// angle, so Newton's method is kept between bounds that close in on the answer.
+std::optional<Eigen::Vector2d> unproject_fisheye(const config::CameraProfile& c,
+                                                 const Eigen::Vector2d& target,
+                                                 double fold_radius2) {
+  const double radius = target.norm();
+  if (radius < 1e-15) return target;
+  double low = 0.0;
+  double high = std::atan(std::sqrt(fold_radius2));
+  if (!(radius < fisheye_radius(c, high))) return std::nullopt;
+  double theta = std::min(radius, 0.5 * high);
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    const double error = fisheye_radius(c, theta) - radius;
+    if (std::abs(error) < 1e-15) break;
+    (error > 0.0 ? high : low) = theta;
+    const double newton = theta - error / std::max(fisheye_slope(c, theta), 1e-12);
+    theta = newton > low && newton < high ? newton : 0.5 * (low + high);
+  }
+  return target * (std::tan(theta) / radius);
 }
 
 }  // namespace
 
 Camera::Camera(const config::CameraProfile& profile)
     : profile_(profile),
-      has_distortion_(profile.k1 != 0.0 || profile.k2 != 0.0 || profile.p1 != 0.0 ||
-                      profile.p2 != 0.0 || profile.k3 != 0.0),
-      fold_radius2_(has_distortion_ ? find_fold(profile)
-                                    : std::numeric_limits<double>::infinity()) {}
+      has_distortion_(profile.model == config::LensModel::Fisheye || profile.k1 != 0.0 ||
+                      profile.k2 != 0.0 || profile.p1 != 0.0 || profile.p2 != 0.0 ||
+                      profile.k3 != 0.0),
+      fold_radius2_(fold_of(profile, has_distortion_)) {}
 
 std::optional<Eigen::Vector2d> Camera::project(const Eigen::Vector3d& p) const {
   if (!(p.z() > 0.0)) return std::nullopt;
@@ -93,6 +163,9 @@ std::optional<Eigen::Vector2d> Camera::unproject(const Eigen::Vector2d& pixel) c
                                (pixel.y() - profile_.cy) / profile_.fy);
   if (!target.allFinite()) return std::nullopt;
   if (!has_distortion_) return target;
+  if (profile_.model == config::LensModel::Fisheye) {
+    return unproject_fisheye(profile_, target, fold_radius2_);
+  }
   Eigen::Vector2d n = target;
   // Start inside the fold, where Newton's method stays on the branch that a lens can see.
   if (n.squaredNorm() >= fold_radius2_) n *= 0.9 * std::sqrt(fold_radius2_ / n.squaredNorm());
@@ -137,7 +210,8 @@ Camera Camera::at_level(int level) const {
 
 Camera Camera::undistorted() const {
   config::CameraProfile p = profile_;
-  p.k1 = p.k2 = p.p1 = p.p2 = p.k3 = 0.0;
+  p.model = config::LensModel::Opencv;
+  p.k1 = p.k2 = p.p1 = p.p2 = p.k3 = p.k4 = 0.0;
   return Camera(p);
 }
 

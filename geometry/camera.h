@@ -7,9 +7,9 @@
 
 namespace lumibox::geometry {
 
-/// Pinhole camera with the OPENCV distortion model (k1 k2 p1 p2 k3; Brown, 1966). Camera axes: x
-/// right, y down, z forward. Pixel centres are at integer coordinates, the first at (0, 0).
-/// "Normalised" means on the plane z = 1, without distortion.
+/// A camera with one of the lenses of config::LensModel. Camera axes: x right, y down, z forward.
+/// Pixel centres are at integer coordinates, the first at (0, 0). "Normalised" means on the plane
+/// z = 1, without distortion; so a fisheye lens is known only where it looks forward.
 class Camera {
  public:
   Camera() : Camera(config::CameraProfile{}) {}
@@ -28,14 +28,15 @@ class Camera {
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point_in_camera,
                                          Eigen::Matrix<double, 2, 3>* jacobian) const;
 
-  /// Normalised coordinates of a pixel (Newton's method, to 1e-12); none where no undistorted point
-  /// maps to it.
+  /// Normalised coordinates of a pixel (Newton's method, to 1e-12); none where no point before the
+  /// camera maps to it.
   std::optional<Eigen::Vector2d> unproject(const Eigen::Vector2d& pixel) const;
 
   /// Distorted pixel of undistorted normalised coordinates, without the check for the fold.
   Eigen::Vector2d distort(const Eigen::Vector2d& normalised) const;
 
-  /// Squared normalised radius at which the radial distortion folds; infinite if it never does.
+  /// Squared normalised radius at which the radial distortion folds; infinite if it never does, but
+  /// 1e6 at most for a fisheye lens (89.9 degrees from the optical axis).
   double fold_radius2() const { return fold_radius2_; }
 
   /// True if the pixel lies inside the image, at least `border` pixels from the outermost centres.
@@ -48,7 +49,7 @@ class Camera {
   /// level 1 lies between pixels 0 and 1 of level 0.
   Camera at_level(int level) const;
 
-  /// The same camera without its distortion.
+  /// The pinhole camera of the same intrinsics; of a fisheye's picture it sees the middle.
   Camera undistorted() const;
 
  private:

@@ -7,7 +7,8 @@ namespace lumibox::lightfield {
 namespace {
 
 auto lens(const config::CameraProfile& c) {
-  return std::tie(c.width, c.height, c.fx, c.fy, c.cx, c.cy, c.k1, c.k2, c.p1, c.p2, c.k3);
+  return std::tie(c.model, c.width, c.height, c.fx, c.fy, c.cx, c.cy, c.k1, c.k2, c.p1, c.p2, c.k3,
+                  c.k4);
 }
 
 }  // namespace

@@ -10,11 +10,12 @@
 namespace lumibox::lightfield {
 namespace {
 
-constexpr std::array<ColmapLens, 6> kLenses{{{0, "SIMPLE_PINHOLE", 3},
+constexpr std::array<ColmapLens, 7> kLenses{{{0, "SIMPLE_PINHOLE", 3},
                                              {1, "PINHOLE", 4},
                                              {2, "SIMPLE_RADIAL", 4},
                                              {3, "RADIAL", 5},
                                              {4, "OPENCV", 8},
+                                             {5, "OPENCV_FISHEYE", 8},
                                              {6, "FULL_OPENCV", 12}}};
 
 template <typename Predicate>
@@ -35,8 +36,6 @@ const ColmapLens* find_lens(int id) {
 
 std::string foreign_lens_name(int id) {
   switch (id) {
-    case 5:
-      return "OPENCV_FISHEYE";
     case 7:
       return "FOV";
     case 8:
@@ -62,7 +61,11 @@ config::CameraProfile to_profile(const ColmapLens& lens, std::int64_t width, std
   c.fy = one_focal_length ? c.fx : p[next++];
   c.cx = p[next++];
   c.cy = p[next++];
-  for (double* coefficient : {&c.k1, &c.k2, &c.p1, &c.p2, &c.k3}) {
+  const bool fisheye = lens.name == "OPENCV_FISHEYE";
+  if (fisheye) c.model = config::LensModel::Fisheye;
+  double* const third = fisheye ? &c.k3 : &c.p1;
+  double* const fourth = fisheye ? &c.k4 : &c.p2;
+  for (double* coefficient : {&c.k1, &c.k2, third, fourth, &c.k3}) {
     if (next < lens.parameters) *coefficient = p[next++];
   }
   *flaw = config::fault_of(c).value_or("");  // in the file's own numbers

@@ -45,7 +45,8 @@ const ColmapLens* find_lens(int id);
 
 /// What an error message says instead.
 inline constexpr const char* kKnownLenses =
-    "expected SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV or FULL_OPENCV";
+    "expected SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV, FULL_OPENCV or "
+    "OPENCV_FISHEYE";
 
 /// Name of a model that find_lens() does not know, for an error message.
 std::string foreign_lens_name(int id);

@@ -32,13 +32,17 @@ class Line {
 
 std::string camera_line(std::size_t id, const config::CameraProfile& c) {
   Line line(id);
+  const bool fisheye = c.model == config::LensModel::Fisheye;
   // OPENCV has no k3; FULL_OPENCV has, and three more.
-  line.add(c.k3 == 0.0 ? "OPENCV" : "FULL_OPENCV")
+  const bool full = !fisheye && c.k3 != 0.0;
+  line.add(fisheye ? "OPENCV_FISHEYE"
+           : full  ? "FULL_OPENCV"
+                   : "OPENCV")
       .add(std::to_string(c.width))
       .add(std::to_string(c.height))
       .add({c.fx, c.fy, c.cx + kForeignPixelCentre, c.cy + kForeignPixelCentre})
-      .add({c.k1, c.k2, c.p1, c.p2});
-  if (c.k3 != 0.0) line.add({c.k3, 0.0, 0.0, 0.0});
+      .add({c.k1, c.k2, fisheye ? c.k3 : c.p1, fisheye ? c.k4 : c.p2});
+  if (full) line.add({c.k3, 0.0, 0.0, 0.0});
   return line.text() + "\n";
 }
 

@@ -31,32 +31,35 @@ std::optional<JsonValue> find(const JsonValue& frame, const JsonValue& top, cons
   return std::nullopt;
 }
 
-void refuse_other_lenses(const JsonValue& frame, const JsonValue& top) {
-  static const std::set<std::string> kKnown{"OPENCV", "PINHOLE", "SIMPLE_PINHOLE", "RADIAL",
-                                            "SIMPLE_RADIAL"};
-  if (const auto model = find(frame, top, "camera_model");
-      model && !kKnown.contains(model->text())) {
-    model->fail("is " + printable(model->text()) + ", expected OPENCV or a special case of it");
+config::LensModel read_model(const JsonValue& frame, const JsonValue& top) {
+  static const std::set<std::string> kPolynomial{"OPENCV", "PINHOLE", "SIMPLE_PINHOLE", "RADIAL",
+                                                 "SIMPLE_RADIAL"};
+  if (const auto value = find(frame, top, "ftheta_p0"); value && value->number() != 0.0) {
+    value->fail("is not zero, expected the model OPENCV or OPENCV_FISHEYE");
   }
-  for (const char* key : {"k4", "ftheta_p0"}) {
-    if (const auto value = find(frame, top, key); value && value->number() != 0.0) {
-      value->fail("is not zero, expected the OPENCV model, which has k1 k2 p1 p2 k3");
-    }
+  const auto model = find(frame, top, "camera_model");
+  const bool polynomial = model && kPolynomial.contains(model->text());
+  const bool fisheye = model && model->text() == "OPENCV_FISHEYE";
+  if (model && !polynomial && !fisheye) {
+    model->fail("is " + printable(model->text()) +
+                ", expected OPENCV or a special case of it, or OPENCV_FISHEYE");
   }
-  if (const auto fisheye = find(frame, top, "is_fisheye"); fisheye && fisheye->boolean()) {
-    fisheye->fail("is true, expected a camera without fisheye lens");
-  }
+  // instant-ngp says it with this key alone.
+  const auto flag = find(frame, top, "is_fisheye");
+  const bool flagged = flag && flag->boolean();
+  if (flagged && polynomial) flag->fail("is true, expected false of a camera without fisheye lens");
+  return fisheye || flagged ? config::LensModel::Fisheye : config::LensModel::Opencv;
 }
 
 /// Intrinsics of a frame; `picture` gives the size where the file does not.
 config::CameraProfile read_lens(const JsonValue& frame, const JsonValue& top,
                                 const fs::path& picture) {
-  refuse_other_lenses(frame, top);
   const auto number = [&](const char* key, double fallback) {
     const auto value = find(frame, top, key);
     return value ? value->number() : fallback;
   };
   config::CameraProfile c;
+  c.model = read_model(frame, top);
   const auto width = find(frame, top, "w");
   const auto height = find(frame, top, "h");
   if (width && height) {
@@ -88,6 +91,7 @@ config::CameraProfile read_lens(const JsonValue& frame, const JsonValue& top,
   c.p1 = number("p1", 0.0);
   c.p2 = number("p2", 0.0);
   c.k3 = number("k3", 0.0);
+  c.k4 = number("k4", 0.0);
   // Before the move of the principal point, so that the words have the file's own numbers.
   if (const auto fault = config::fault_of(c)) frame.fail("has a camera whose " + *fault);
   c.cx -= kForeignPixelCentre;

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "config/error.h"
 #include "geometry/rotation.h"
 #include "lightfield/camera_io.h"
 #include "lightfield/opengl_axes.h"
@@ -21,6 +22,11 @@ void add_intrinsics(const config::CameraProfile& c, Json* json) {
   (*json)["cy"] = c.cy + kForeignPixelCentre;
   (*json)["k1"] = c.k1;
   (*json)["k2"] = c.k2;
+  if (c.model == config::LensModel::Fisheye) {
+    (*json)["k3"] = c.k3;
+    (*json)["k4"] = c.k4;
+    return;
+  }
   if (c.k3 != 0.0) (*json)["k3"] = c.k3;
   (*json)["p1"] = c.p1;
   (*json)["p2"] = c.p2;
@@ -61,6 +67,19 @@ Json to_json(const Perspective& perspective, bool own_intrinsics, OwnKeys keys) 
   return frame;
 }
 
+/// nerfstudio reads the model at the top level alone.
+const char* model_of(std::span<const Perspective> perspectives) {
+  const auto fisheye = std::ranges::count_if(perspectives, [](const Perspective& p) {
+    return p.camera->profile().model == config::LensModel::Fisheye;
+  });
+  if (fisheye != 0 && fisheye != std::ssize(perspectives)) {
+    throw config::InputError(
+        std::to_string(fisheye) + " of " + std::to_string(perspectives.size()) +
+        " pictures are of a fisheye lens; expected all or none in one capture");
+  }
+  return fisheye == 0 ? "OPENCV" : "OPENCV_FISHEYE";
+}
+
 bool one_lens(std::span<const Perspective> perspectives) {
   return std::all_of(perspectives.begin(), perspectives.end(), [&](const Perspective& p) {
     return same_lens(p.camera->profile(), perspectives.front().camera->profile());
@@ -77,7 +96,7 @@ std::string picture_file(int id, const std::string& extension) {
 
 std::string transforms_json(std::span<const Perspective> perspectives,
                             const std::optional<Sphere>& subject, bool has_points, OwnKeys keys) {
-  Json top{{"camera_model", "OPENCV"}};
+  Json top{{"camera_model", model_of(perspectives)}};
   // nerfstudio looks at a frame's own intrinsics only where the top level has none.
   const bool shared_intrinsics = one_lens(perspectives);
   if (shared_intrinsics && !perspectives.empty()) {

@@ -144,7 +144,9 @@ class Overlay::Impl {
     set("ray_from_fragment", 1.0 / view.fx, -1.0 / view.fy, (-0.5 - view.cx) / view.fx,
         (view.height - 0.5 - view.cy) / view.fy);
     set("intrinsics", lens.fx, lens.fy, lens.cx, lens.cy);
-    set("distortion", lens.k1, lens.k2, lens.p1, lens.p2);
+    const bool fisheye = lens.model == config::LensModel::Fisheye;
+    glUniform1i(gl::uniform(picture_program_, "fisheye"), fisheye ? 1 : 0);
+    set("distortion", lens.k1, lens.k2, fisheye ? lens.k3 : lens.p1, fisheye ? lens.k4 : lens.p2);
     const auto largest = static_cast<double>(std::numeric_limits<float>::max());
     glUniform3f(gl::uniform(picture_program_, "k3_fold_opacity"), static_cast<float>(lens.k3),
                 static_cast<float>(std::min(fold_radius2, largest)), opacity);

@@ -63,9 +63,10 @@ LayerUniforms uniforms_of(const Layer& layer, const Perspective& perspective, in
   u.from_1 = vec4(m(0, 2), m(1, 2), m(2, 2), m(3, 2));
   u.picture =
       vec4(width - 1, height - 1, slot, 1.0 / feather_width(width, height, settings.feather_px));
-  u.blend = vec4(layer.weight, c.k3, fold, 0.0);
+  const bool fisheye = c.model == config::LensModel::Fisheye;
+  u.blend = vec4(layer.weight, c.k3, fold, fisheye ? 1.0 : 0.0);
   u.intrinsics = vec4(c.fx, c.fy, c.cx, c.cy);
-  u.distortion = vec4(c.k1, c.k2, c.p1, c.p2);
+  u.distortion = fisheye ? vec4(c.k1, c.k2, c.k3, c.k4) : vec4(c.k1, c.k2, c.p1, c.p2);
   return u;
 }
 

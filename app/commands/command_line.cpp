@@ -112,8 +112,10 @@ void add_track(CLI::App& app) {
   command->add_option("--seed", options->seed, "of the random sampling")
       ->check(CLI::Range(std::uint32_t{0}, std::numeric_limits<std::uint32_t>::max()))
       ->type_name("N");
-  command->add_option("--calib", options->calibration, "calibration in place of the sequence's own")
-      ->type_name("CALIB.txt");
+  command
+      ->add_option("--calib", options->calibration,
+                   "calib.txt or camera profile (.toml) in place of the sequence's own")
+      ->type_name("CALIB");
   command->add_flag("--realtime", options->realtime,
                     "play at the recorded rate; frames that come too fast are dropped");
   CLI::Option* capture =
@@ -158,8 +160,9 @@ void add_render(CLI::App& app) {
       ->default_str("plane");
   command
       ->add_option("--calib", options->calibration,
-                   "intrinsics of the views (default: the capture's, undistorted)")
-      ->type_name("CALIB.txt");
+                   "calib.txt or camera profile (.toml) with the intrinsics of the views "
+                   "(default: the capture's, undistorted)")
+      ->type_name("CALIB");
   add_reference(command, options->reference);
 }
 
@@ -198,6 +201,80 @@ void add_export(CLI::App& app) {
       ->check(CLI::IsMember({"nerfstudio", "colmap"}))
       ->required();
   command->add_option("--out", options->out, "folder to be made")->type_name("PATH")->required();
+}
+
+void parse_board(const std::string& text, calibration::Board& board) {
+  int read = 0;
+  const int count = std::sscanf(text.c_str(), "%4dx%4d%n", &board.columns, &board.rows, &read);
+  if (count != 2 || static_cast<std::size_t>(read) != text.size()) {
+    throw CLI::ValidationError("--board", "found " + text + "; expected COLUMNSxROWS, e.g. 9x6");
+  }
+}
+
+void add_markers(CLI::App* command, const std::shared_ptr<CalibrateOptions>& options) {
+  const auto markers = [options]() -> calibration::Board::Markers& {
+    auto& all = options->board.markers;
+    return all ? *all : all.emplace();
+  };
+  CLI::Option* charuco =
+      command
+          ->add_option_function<std::string>(
+              "--charuco",
+              [markers](const std::string& dictionary) { markers().dictionary = dictionary; },
+              "a ChArUco board with markers of this dictionary, e.g. DICT_4X4_50")
+          ->type_name("DICT");
+  CLI::Option* marker = command
+                            ->add_option_function<double>(
+                                "--marker", [markers](double side_m) { markers().side_m = side_m; },
+                                "side of a marker, metres")
+                            ->type_name("METRES");
+  charuco->needs(marker);
+  marker->needs(charuco);
+  command
+      ->add_option("--window", options->window_px,
+                   "half the window in which a chessboard's corner is refined, pixels (default: "
+                   "from the distance of the corners)")
+      ->check(CLI::Range(2, 50))
+      ->type_name("N")
+      ->excludes(charuco);
+}
+
+void add_calibrate(CLI::App& app) {
+  const auto options = std::make_shared<CalibrateOptions>();
+  CLI::App* command = add_command(
+      app, "calibrate", "Find a camera's lens from pictures of a chessboard or ChArUco board.",
+      "lumibox calibrate board*.jpg --board 9x6 --square 0.025 --out webcam.toml", options,
+      calibrate);
+  command->add_option("IMAGES", options->images, "pictures of the board")->required();
+  command
+      ->add_option_function<std::string>(
+          "--board", [options](const std::string& text) { parse_board(text, options->board); },
+          "inner corners of the board, one less than squares each way")
+      ->type_name("COLUMNSxROWS")
+      ->required();
+  command->add_option("--square", options->board.square_m, "side of a square, metres")
+      ->type_name("METRES")
+      ->required();
+  command->add_option("--out", options->out, "camera profile to write")
+      ->type_name("PROFILE.toml")
+      ->required();
+  command->add_option("--model", options->model, "lens")
+      ->check(CLI::IsMember({"opencv", "fisheye"}))
+      ->capture_default_str();
+  add_markers(command, options);
+  command->add_flag("--keep-outliers", options->keep_outliers,
+                    "use pictures too that are far worse than the others");
+  command->add_option("--fps", options->fps, "frames per second, for the profile")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->check(must_be_finite)
+      ->capture_default_str();
+  command
+      ->add_option("--readout", options->readout_s,
+                   "time from the first row to the last, for the profile")
+      ->type_name("SECONDS")
+      ->check(CLI::Range(0.0, 1.0))
+      ->check(must_be_finite)
+      ->capture_default_str();
 }
 
 void add_sim(CLI::App& app) {
@@ -271,6 +348,7 @@ int run_command_line(int argc, char** argv) {
   add_evaluate(app);
   add_import(app);
   add_export(app);
+  add_calibrate(app);
   add_sim(app);
   add_bench(app);
   for (CLI::App* command : app.get_subcommands({})) {

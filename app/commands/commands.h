@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/auto_capture.h"
+#include "calibration/board.h"
 #include "config/loader.h"
 
 /// The subcommands and what each can be told; command_line.cpp says it to the person. All throw
@@ -76,6 +77,19 @@ struct ExportOptions {
   std::string format;
 };
 void export_data_set(const ExportOptions& options);
+
+struct CalibrateOptions {
+  config::Sources sources;
+  std::vector<std::filesystem::path> images;
+  calibration::Board board;
+  std::filesystem::path out;
+  std::string model = "opencv";
+  std::optional<int> window_px;  ///< none: as wide as the board's spacing allows
+  bool keep_outliers = false;
+  double fps = 30.0;
+  double readout_s = 0.0;
+};
+void calibrate(const CalibrateOptions& options);
 
 struct SimOptions {
   config::Sources sources;

@@ -46,7 +46,8 @@ struct Sequence {
 Sequence open_sequence(const std::filesystem::path& path,
                        const std::optional<std::filesystem::path>& calibration = std::nullopt);
 
-/// A calib.txt: `fx fy cx cy k1 k2 p1 p2 width height fps [k3 [readout_s]]`. Errors as above.
+/// A calib.txt: `fx fy cx cy k1 k2 p1 p2 width height fps [k3 [readout_s]]`; or a camera profile
+/// (config::load_camera_profile) if the name ends in .toml. Errors as above.
 config::CameraProfile read_calibration(const std::filesystem::path& file);
 
 /// Lines `t tx ty tz qx qy qz qw`, world from camera. Quaternions are normalised. Errors as above.

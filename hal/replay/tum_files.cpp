@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "config/error.h"
+#include "config/loader.h"
 #include "geometry/position.h"
 #include "hal/replay/text_file.h"
 
@@ -94,6 +95,7 @@ std::vector<ImageLine> read_image_list(const fs::path& file) {
 }
 
 config::CameraProfile read_calibration(const fs::path& file) {
+  if (file.extension() == ".toml") return config::load_camera_profile(file);
   const TextFile text(file);
   const std::string expected = "fx fy cx cy k1 k2 p1 p2 width height fps [k3 [readout_s]]";
   if (text.lines().size() != 1) {

@@ -9,9 +9,9 @@ struct Layer {
   vec4 from_y;
   vec4 from_1;
   vec4 picture;     // width - 1, height - 1, slot in the texture array, 1 / feather width
-  vec4 blend;       // weight or alpha, k3, squared radius of the fold, unused
+  vec4 blend;       // weight or alpha, k3, squared radius of the fold, 1 if a fisheye lens
   vec4 intrinsics;  // fx fy cx cy
-  vec4 distortion;  // k1 k2 p1 p2
+  vec4 distortion;  // as pixel_of() has it
 };
 
 layout(std140) uniform Layers {
@@ -33,7 +33,8 @@ float seen(int i, out vec2 pixel) {
   pixel = source.xy / source.z;
 #ifdef DISTORTION
   visible = visible && dot(pixel, pixel) < layers[i].blend.z;
-  pixel = pixel_of(pixel, layers[i].intrinsics, layers[i].distortion, layers[i].blend.y);
+  pixel = pixel_of(pixel, layers[i].intrinsics, layers[i].distortion, layers[i].blend.y,
+                   layers[i].blend.w > 0.5);
 #endif
   vec2 inside = min(pixel, layers[i].picture.xy - pixel) * layers[i].picture.w;
   vec2 fade = clamp(inside, 0.0, 1.0);

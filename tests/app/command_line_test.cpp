@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <string>
 
+#include "hal/image_io.h"
 #include "support/recording.h"
 #include "support/source_file.h"
 #include "support/temp_dir.h"
@@ -67,7 +68,8 @@ std::string small_capture(const Recording& recording) {
 TEST(CommandLine, EveryCommandExplainsItselfWithAnExample) {
   EXPECT_THAT(lumibox("--help").out, HasSubstr("COMMAND --help"));
   for (const std::string command :
-       {"run", "demo", "track", "render", "evaluate", "import", "export", "sim", "bench"}) {
+       {"run", "demo", "track", "render", "evaluate", "import", "export", "calibrate", "sim",
+        "bench"}) {
     const Outcome outcome = lumibox(command + " --help");
     EXPECT_EQ(outcome.status, 0);
     EXPECT_THAT(outcome.out, AllOf(HasSubstr("Example:"), HasSubstr("lumibox " + command)));
@@ -125,6 +127,45 @@ TEST(CommandLine, NamesTheCommandThatThereIsNot) {
   EXPECT_THAT(lumibox("fly").err, AllOf(HasSubstr("fly"), HasSubstr("expected run, demo, track")));
   EXPECT_THAT(lumibox("--fly").err, HasSubstr("--fly"));
   EXPECT_THAT(lumibox("").err, HasSubstr("expected run, demo, track"));
+}
+
+/// A calibration of these pictures, with a profile that must not be touched.
+class CalibrateCommand : public ::testing::Test {
+ protected:
+  Outcome calibrate(const std::string& arguments) const {
+    return lumibox("calibrate " + arguments + " --square 0.025 --out " + out_.string());
+  }
+  std::string picture(int width, int height, const std::string& name) const {
+    hal::write_png(dir_ / name, hal::Image(width, height, 1));
+    return (dir_ / name).string() + " ";
+  }
+  TempDir dir_;
+  std::filesystem::path out_ = dir_.write("camera.toml", "as before");
+};
+
+TEST_F(CalibrateCommand, RefusesPicturesWithoutABoardAndLeavesTheProfile) {
+  EXPECT_COMPLAINT(calibrate(picture(64, 48, "a.png") + "--board 9x6"),
+                   HasSubstr("no board of 9x6 inner corners in any of 1 pictures"));
+  EXPECT_EQ(read_text(out_), "as before");
+}
+
+TEST_F(CalibrateCommand, RefusesPicturesOfDifferentSizes) {
+  EXPECT_COMPLAINT(calibrate(picture(64, 48, "a.png") + picture(48, 64, "b.png") + "--board 9x6"),
+                   AllOf(HasSubstr("b.png"), HasSubstr("48x64"), HasSubstr("expected 64x48")));
+}
+
+TEST_F(CalibrateCommand, RefusesOddBoards) {
+  const std::string image = picture(64, 48, "a.png");
+  EXPECT_COMPLAINT(calibrate(image + "--board 2x6"), HasSubstr("2x6 inner corners; expected 3"));
+  EXPECT_COMPLAINT(calibrate(image + "--board 9x6 --charuco DICT_1 --marker 0.01"),
+                   HasSubstr("no marker dictionary DICT_1"));
+  EXPECT_EQ(calibrate(image + "--board 9by6").status, 2);
+  EXPECT_EQ(calibrate(image + "--board 9x6 --charuco DICT_4X4_50").status, 2);
+}
+
+TEST_F(CalibrateCommand, RefusesAProfileThatNobodyWouldReadAsOne) {
+  EXPECT_COMPLAINT(lumibox("calibrate a.png --board 9x6 --square 0.025 --out a.png"),
+                   HasSubstr("expected a name in .toml"));
 }
 
 TEST(CommandLine, SubjectInAFrameThatIsNotThereIsRefused) {

@@ -40,6 +40,19 @@ TEST(Devices, KindsWithoutANameAreRefused) {
   EXPECT_THAT(complaint(config), HasSubstr("devices.buttons: \"script\" without a name"));
 }
 
+TEST(Devices, ACalibrationOverridesTheRecordings) {
+  const testing::Recording recording;
+  config::Config config;
+  config.devices.camera = "replay:" + recording.folder().string();
+  config.devices.calibration =
+      recording.dir()
+          .write("own.toml", "width = 32\nheight = 24\nfx = 44\nfy = 44\ncx = 15\ncy = 11\n")
+          .string();
+  EXPECT_EQ(open_devices(config).camera->profile().fx, 44.0);
+  config.devices.camera = "sim:toy.toml";
+  EXPECT_THAT(complaint(config), HasSubstr("devices.calibration"));
+}
+
 TEST(Devices, MissingFilesAreNamed) {
   config::Config config;
   config.devices.camera = "replay:/nowhere/walk";

@@ -43,6 +43,38 @@ TEST_F(CameraProfileFile, GivesWhatItSaysAndNoDistortionOtherwise) {
   EXPECT_EQ(profile.readout_s, 0.03);
 }
 
+TEST_F(CameraProfileFile, NamesTheLensModel) {
+  EXPECT_EQ(load_text(kMinimal).model, LensModel::Opencv);
+  const CameraProfile profile =
+      load_text("model = \"fisheye\"\nk4 = 0.25\n" + std::string(kMinimal));
+  EXPECT_EQ(profile.model, LensModel::Fisheye);
+  EXPECT_EQ(profile.k4, 0.25);
+  EXPECT_THAT(complaint_about("model = \"FOV\"\n" + std::string(kMinimal)),
+              AllOf(HasSubstr("webcam.toml:1"), HasSubstr("opencv, fisheye")));
+}
+
+TEST_F(CameraProfileFile, WithACoefficientOfTheOtherModelIsRefused) {
+  EXPECT_THAT(complaint_about(std::string(kMinimal) + "k4 = 0.1\n"), HasSubstr("k4 is 0.1"));
+  EXPECT_THAT(complaint_about(std::string(kMinimal) + "model = \"fisheye\"\np2 = 0.1\n"),
+              HasSubstr("p2 is 0.1"));
+}
+
+TEST_F(CameraProfileFile, ReadsBackWhatWasWrittenToTheLastBit) {
+  CameraProfile profile;
+  profile.model = LensModel::Fisheye;
+  profile.fx = 1000.0 / 3.0;
+  profile.k1 = -0.1;
+  profile.k4 = 1e-7 / 3.0;
+  profile.readout_s = 0.02;
+  const CameraProfile back = load_text(profile_text(profile));
+  EXPECT_EQ(back.model, profile.model);
+  EXPECT_EQ(back.width, profile.width);
+  EXPECT_EQ(back.fx, profile.fx);
+  EXPECT_EQ(back.k1, profile.k1);
+  EXPECT_EQ(back.k4, profile.k4);
+  EXPECT_EQ(back.readout_s, profile.readout_s);
+}
+
 TEST_F(CameraProfileFile, WithoutARequiredKeyIsRefused) {
   EXPECT_THAT(complaint_about("width = 320\nheight = 240\nfx = 270\n"),
               AllOf(HasSubstr("webcam.toml"), HasSubstr("'fy'")));

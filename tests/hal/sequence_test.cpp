@@ -65,6 +65,17 @@ TEST(Sequence, CalibrationGivenOverridesTheOneInTheFolder) {
   EXPECT_EQ(open_sequence(recording.folder(), own).profile.fx, 40.0);
 }
 
+TEST(Sequence, CalibrationGivenMayBeACameraProfile) {
+  const Recording recording;
+  const fs::path own = recording.dir().write(
+      "own.toml",
+      "model = \"fisheye\"\nwidth = 32\nheight = 24\nfx = 20\nfy = 20\ncx = 15.5\ncy = 11.5\n"
+      "k4 = 0.01\n");
+  const config::CameraProfile profile = open_sequence(recording.folder(), own).profile;
+  EXPECT_EQ(profile.model, config::LensModel::Fisheye);
+  EXPECT_EQ(profile.k4, 0.01);
+}
+
 TEST(Sequence, CalibrationGivenMustFitThePictures) {
   const Recording recording;
   const fs::path own = recording.dir().write("own.txt", "40 40 15.5 11.5 0 0 0 0 64 48 10\n");

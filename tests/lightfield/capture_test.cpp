@@ -222,6 +222,22 @@ TEST(ExportCapture, RoundTripKeepsPosesAndLenses) {
   }
 }
 
+TEST(ExportCapture, RoundTripKeepsAFisheyeLens) {
+  Capture capture;
+  capture.light_field.add(make_perspective(0, {}, small_fisheye_camera()));
+  const config::CameraProfile before = small_fisheye_camera()->profile();
+  for (const ExportFormat format : {ExportFormat::Nerfstudio, ExportFormat::Colmap}) {
+    const TemporaryFolder folder;
+    export_capture(capture, format, folder / "out");
+    const Capture back = import_capture(folder / "out");
+    const config::CameraProfile& after = back.light_field.perspectives()[0].camera->profile();
+    EXPECT_EQ(after.model, config::LensModel::Fisheye);
+    EXPECT_EQ(after.k2, before.k2);
+    EXPECT_EQ(after.k3, before.k3);
+    EXPECT_EQ(after.k4, before.k4);
+  }
+}
+
 TEST(ExportCapture, RefusesAFolderThatHoldsSomething) {
   const TemporaryFolder folder;
   write_text(folder / "out/mine", "");

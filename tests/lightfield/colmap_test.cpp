@@ -134,6 +134,11 @@ TEST(ImportColmap, CameraModels) {
   EXPECT_EQ(lens("RADIAL 16 12 20 8 6 0.1 0.2").cy, 5.5);
   EXPECT_EQ(lens("OPENCV 16 12 20 21 8 6 0.1 0.2 0.3 0.4").p2, 0.4);
   EXPECT_EQ(lens("FULL_OPENCV 16 12 20 21 8 6 0.1 0.2 0.3 0.4 0.5 0 0 0").k3, 0.5);
+  const config::CameraProfile fisheye = lens("OPENCV_FISHEYE 16 12 20 21 8 6 0.1 0.2 0.3 0.4");
+  EXPECT_EQ(fisheye.model, config::LensModel::Fisheye);
+  EXPECT_EQ(fisheye.k2, 0.2);
+  EXPECT_EQ(fisheye.k3, 0.3);
+  EXPECT_EQ(fisheye.k4, 0.4);
 }
 
 TEST(ImportColmap, RefusesWithFileLineAndReason) {
@@ -143,8 +148,8 @@ TEST(ImportColmap, RefusesWithFileLineAndReason) {
     write_text_model(folder / "p", camera);
     return input_error([&] { import_capture(folder / "p"); });
   };
-  EXPECT_THAT(error("OPENCV_FISHEYE 16 12 20 21 8 6 0 0 0 0"),
-              HasSubstr("cameras.txt:2: camera model OPENCV_FISHEYE, expected SIMPLE_PINHOLE"));
+  EXPECT_THAT(error("RADIAL_FISHEYE 16 12 20 8 6 0 0"),
+              HasSubstr("cameras.txt:2: camera model RADIAL_FISHEYE, expected SIMPLE_PINHOLE"));
   EXPECT_THAT(error("FULL_OPENCV 16 12 20 21 8 6 0 0 0 0 0 0 0 1"), HasSubstr("k4, k5 or k6"));
   EXPECT_THAT(error("PINHOLE 16 12 20 21 8"), HasSubstr("3 parameters, PINHOLE has 4"));
   EXPECT_THAT(error("PINHOLE 16 12 20 21 8 x"), HasSubstr("not a number: x"));
@@ -197,8 +202,8 @@ TEST(ImportColmap, NoModel) {
 TEST(ImportColmap, UnknownBinaryModelIsNamed) {
   const TemporaryFolder folder;
   write_pictures(folder / "p");
-  write_binary_model(folder / "p", 5);
-  EXPECT_THAT(input_error([&] { import_capture(folder / "p"); }), HasSubstr("OPENCV_FISHEYE"));
+  write_binary_model(folder / "p", 9);
+  EXPECT_THAT(input_error([&] { import_capture(folder / "p"); }), HasSubstr("RADIAL_FISHEYE"));
 }
 
 RC_GTEST_PROP(ImportColmapMutated, BinaryGivesAnErrorOrACapture, ()) {

@@ -74,6 +74,14 @@ inline std::shared_ptr<const geometry::Camera> small_camera(double k3 = 0.0) {
   return std::make_shared<const geometry::Camera>(profile);
 }
 
+inline std::shared_ptr<const geometry::Camera> small_fisheye_camera() {
+  config::CameraProfile profile = small_camera(0.003)->profile();
+  profile.model = config::LensModel::Fisheye;
+  profile.p1 = profile.p2 = 0.0;
+  profile.k4 = -0.004;
+  return std::make_shared<const geometry::Camera>(profile);
+}
+
 /// A camera on a spiral around `subject` at distance 2, looking at it.
 inline geometry::Pose orbit_pose(int i, const Eigen::Vector3d& subject) {
   const double angle = 0.3 * i;

@@ -101,16 +101,30 @@ TEST(ImportTransforms, NameWithoutExtension) {
 TEST(ImportTransforms, RefusesWhatItCannotRepresent) {
   OneFrame source;
   EXPECT_THAT(source.error(""), HasSubstr("frames[0] has neither fl_x nor camera_angle_x"));
-  EXPECT_THAT(source.error("\"fl_x\":20,\"camera_model\":\"OPENCV_FISHEYE\","),
-              HasSubstr("camera_model is OPENCV_FISHEYE, expected OPENCV"));
-  EXPECT_THAT(source.error("\"fl_x\":20,\"is_fisheye\":true,"), HasSubstr("is_fisheye"));
-  EXPECT_THAT(source.error("\"fl_x\":20,\"k4\":0.1,"), HasSubstr("k4"));
+  EXPECT_THAT(source.error("\"fl_x\":20,\"camera_model\":\"EQUIRECTANGULAR\","),
+              HasSubstr("camera_model is EQUIRECTANGULAR, expected OPENCV"));
+  EXPECT_THAT(source.error("\"fl_x\":20,\"camera_model\":\"OPENCV\",\"is_fisheye\":true,"),
+              HasSubstr("is_fisheye"));
+  EXPECT_THAT(source.error("\"fl_x\":20,\"k4\":0.1,"), HasSubstr("k4 is 0.1; expected 0"));
+  EXPECT_THAT(source.error("\"fl_x\":20,\"is_fisheye\":true,\"p1\":0.1,"),
+              HasSubstr("p1 is 0.1; expected 0"));
   EXPECT_THAT(source.error("\"fl_x\":20,\"w\":20,\"h\":12,"), HasSubstr("its camera says 20x12"));
   EXPECT_THAT(source.error("\"fl_x\":20,", "", "images/none"), HasSubstr("1 of 1 pictures"));
   EXPECT_THAT(source.error("\"fl_x\":20,", "", "../a.jpg"), HasSubstr("inside the folder"));
   EXPECT_THAT(source.error("\"fl_x\":\"20\","), HasSubstr("fl_x is string, expected a number"));
   EXPECT_THAT(source.error("\"w\":1.5,\"h\":12,\"fl_x\":1,"),
               HasSubstr("w is 1.5, expected an in"));
+}
+
+TEST(ImportTransforms, TakesFisheyeLensesOfBothDialects) {
+  for (const char* says : {"\"camera_model\":\"OPENCV_FISHEYE\",", "\"is_fisheye\":true,"}) {
+    const config::CameraProfile c =
+        OneFrame().lens(std::string(says) + "\"fl_x\":9,\"k1\":0.1,\"k3\":0.3,\"k4\":0.4,");
+    EXPECT_EQ(c.model, config::LensModel::Fisheye);
+    EXPECT_EQ(c.k1, 0.1);
+    EXPECT_EQ(c.k3, 0.3);
+    EXPECT_EQ(c.k4, 0.4);
+  }
 }
 
 TEST(ImportTransforms, RefusesIntrinsicsThatNoCameraHas) {

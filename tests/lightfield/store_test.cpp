@@ -169,6 +169,31 @@ TEST(Store, DifferentCamerasAreWrittenWithEachFrame) {
   EXPECT_EQ(capture.light_field.perspectives()[1].camera->profile().k3, 0.25);
 }
 
+TEST(Store, KeepsAFisheyeLens) {
+  const TemporaryFolder folder;
+  Store store(folder / "c", 90, Writing::Inline);
+  store.add(make_perspective(0, kSphere.center, small_fisheye_camera()));
+  const auto json = nlohmann::json::parse(read_text(folder / "c" / "transforms.json"));
+  EXPECT_EQ(json.at("camera_model"), "OPENCV_FISHEYE");
+  EXPECT_FALSE(json.contains("p1"));
+  const Capture capture = load_capture(folder / "c");
+  const config::CameraProfile& c = capture.light_field.perspectives()[0].camera->profile();
+  EXPECT_EQ(c.model, config::LensModel::Fisheye);
+  EXPECT_EQ(c.k1, 0.05);
+  EXPECT_EQ(c.k2, -0.01);
+  EXPECT_EQ(c.k3, 0.003);
+  EXPECT_EQ(c.k4, -0.004);
+}
+
+// nerfstudio knows one camera_model for all.
+TEST(Store, RefusesAFisheyeLensAmongOthers) {
+  const TemporaryFolder folder;
+  Store store(folder / "c", 90, Writing::Inline);
+  store.add(make_perspective(0, kSphere.center, small_camera()));
+  store.add(make_perspective(1, kSphere.center, small_fisheye_camera()));
+  EXPECT_THAT(store.error().value_or(""), HasSubstr("1 of 2 pictures are of a fisheye lens"));
+}
+
 TEST(Store, RefusesAFolderThatHoldsSomething) {
   const TemporaryFolder folder;
   write_text(folder / "full/note.txt", "mine");

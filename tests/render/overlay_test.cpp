@@ -58,15 +58,19 @@ TEST_F(OverlayTest, APinholesPictureIsShownAsItIs) {
 }
 
 TEST_F(OverlayTest, ALensIsStraightened) {
-  const auto perspective = test::photograph_perspective(
-      0, test::textured_ball(1.0), make_camera(kWidth, kHeight, true), front_.world_from_camera);
-  overlay_->draw_image(*perspective.color, *perspective.camera, front_, 1.0F, framebuffer());
-  const hal::Image shown = read_back();
-  const UndistortedPicture expected = undistort(perspective);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      if (*expected.valid.at(x, y) == 0) continue;
-      ASSERT_LE(std::abs(shown.at(x, y)[0] - expected.color.at(x, y)[0]), 3) << x << " " << y;
+  for (const geometry::Camera& lens :
+       {make_camera(kWidth, kHeight, true), test::make_fisheye_camera(kWidth, kHeight)}) {
+    const auto perspective =
+        test::photograph_perspective(0, test::textured_ball(1.0), lens, front_.world_from_camera);
+    const View view{lens.undistorted(), front_.world_from_camera};
+    overlay_->draw_image(*perspective.color, *perspective.camera, view, 1.0F, framebuffer());
+    const hal::Image shown = read_back();
+    const UndistortedPicture expected = undistort(perspective);
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        if (*expected.valid.at(x, y) == 0) continue;
+        ASSERT_LE(std::abs(shown.at(x, y)[0] - expected.color.at(x, y)[0]), 3) << x << " " << y;
+      }
     }
   }
 }

@@ -95,6 +95,17 @@ geometry::Camera make_camera(int width, int height, bool distorted) {
   return geometry::Camera(p);
 }
 
+geometry::Camera make_fisheye_camera(int width, int height) {
+  config::CameraProfile p = make_camera(width, height).profile();
+  p.model = config::LensModel::Fisheye;
+  p.fx = p.fy = 0.5 * width / (std::numbers::pi / 3.0);
+  p.k1 = -0.03;
+  p.k2 = 0.01;
+  p.k3 = -0.02;
+  p.k4 = 0.008;
+  return geometry::Camera(p);
+}
+
 lightfield::Perspective photograph_perspective(int id, const World& world,
                                                const geometry::Camera& camera,
                                                const geometry::Pose& world_from_camera) {

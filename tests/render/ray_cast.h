@@ -36,6 +36,9 @@ geometry::Pose look_at(const Eigen::Vector3d& center, const Eigen::Vector3d& tar
 /// Camera of 60 degrees field of view, `distorted` with a wide-angle lens's coefficients.
 geometry::Camera make_camera(int width, int height, bool distorted = false);
 
+/// A fisheye lens that sees 120 degrees across the width.
+geometry::Camera make_fisheye_camera(int width, int height);
+
 lightfield::Perspective photograph_perspective(int id, const World& world,
                                                const geometry::Camera& camera,
                                                const geometry::Pose& world_from_camera);

@@ -59,11 +59,12 @@ class RendererTest : public test::GlTest {
 };
 
 TEST_F(RendererTest, AgreesWithTheReference) {
-  for (const bool distorted : {false, true}) {
+  const geometry::Camera cameras[] = {make_camera(160, 120), make_camera(160, 120, true),
+                                      test::make_fisheye_camera(160, 120)};
+  for (std::size_t lens = 0; lens < std::size(cameras); ++lens) {
     for (std::uint32_t seed = 0; seed < 3; ++seed) {
-      const auto perspectives =
-          test::random_capture(test::textured_ball(1.0), make_camera(160, 120, distorted), 12, 4.0,
-                               0.2 + 0.25 * seed, seed);
+      const auto perspectives = test::random_capture(test::textured_ball(1.0), cameras[lens], 12,
+                                                     4.0, 0.2 + 0.25 * seed, seed);
       const View view = view_from({0.4 * seed - 0.5, 0.3, -3.6}, 0.2 * seed);
       for (const int k : {1, 5, 40}) {
         for (const double exponent : {-1.0, 0.0, 2.0}) {  // below zero: small aperture
@@ -75,8 +76,7 @@ TEST_F(RendererTest, AgreesWithTheReference) {
           const hal::Image drawn = draw(view, perspectives, settings);
           const hal::Image expected = render_reference(view, perspectives, settings);
           EXPECT_LT(mean_difference(drawn, expected), 0.5)
-              << "distorted " << distorted << " seed " << seed << " k " << k << " exponent "
-              << exponent;
+              << "lens " << lens << " seed " << seed << " k " << k << " exponent " << exponent;
           EXPECT_LE(largest_difference(drawn, expected), 4);
         }
       }
