@@ -1,6 +1,7 @@
 #include "tracking/patch.h"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -13,8 +14,9 @@ constexpr double kCenter = 0.5 * (kPatch - 1);  // offset of the centre from the
 constexpr int kMinVariance = 16 * kArea;        // grey levels squared, summed: contrast of 4 levels
 
 float bilinear(const hal::Image& image, float x, float y) {
-  const int x0 = static_cast<int>(x);
-  const int y0 = static_cast<int>(y);
+  // Rounded to float, a place inside may lie on the last pixel, which has no neighbour.
+  const int x0 = std::min(static_cast<int>(x), image.width() - 2);
+  const int y0 = std::min(static_cast<int>(y), image.height() - 2);
   const float ax = x - static_cast<float>(x0);
   const float ay = y - static_cast<float>(y0);
   const std::uint8_t* above = image.row(y0) + x0;
