@@ -201,8 +201,8 @@ namespace {
 
 // Bundle adjustment in a world moved by any similarity, and with the sightings in another order,
 // ends at the same place. Its damping knows the world's axes, so other steps lead there, and it
-// stops when one gains less than 1e-5 of the cost: 5e-4 of a world of size 5 (the worst of a
-// hundred: 1.2e-4).
+// stops when one gains less than 1e-5 of the cost: 5e-4 of a world of size 5, where 1.2e-4 was
+// seen.
 RC_GTEST_PROP(InvarianceNumerics, BundleAdjustmentMovesWithTheWorldAndIgnoresOrder, ()) {
   const auto seed = static_cast<std::uint32_t>(*rc::gen::inRange(1, 1000));
   const geometry::Camera camera;
