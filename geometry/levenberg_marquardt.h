@@ -2,6 +2,8 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <cmath>
+#include <optional>
 
 namespace lumibox::geometry {
 
@@ -21,6 +23,22 @@ struct NormalEquations {
   }
 };
 
+/// Solves hessian * step = -gradient with damping relative to the diagonal, in units in which the
+/// diagonal is 1: parameters may be angles and lengths of any size. One without any influence stays
+/// where it is. None if the matrix is not positive.
+template <int N>
+std::optional<Eigen::Matrix<double, N, 1>> damped_step(const NormalEquations<N>& equations,
+                                                       double damping) {
+  using Vector = Eigen::Matrix<double, N, 1>;
+  const Vector unit = equations.hessian.diagonal().unaryExpr(
+      [](double diagonal) { return diagonal > 0.0 ? 1.0 / std::sqrt(diagonal) : 0.0; });
+  Eigen::Matrix<double, N, N> damped = unit.asDiagonal() * equations.hessian * unit.asDiagonal();
+  damped.diagonal().array() += damping;
+  const Eigen::LDLT<Eigen::Matrix<double, N, N>> solver(damped);
+  if (!(solver.vectorD().minCoeff() > 0.0)) return std::nullopt;
+  return Vector(-unit.cwiseProduct(solver.solve(unit.cwiseProduct(equations.gradient))));
+}
+
 /// Minimises a sum of squares over a state of few parameters (Levenberg-Marquardt with damping
 /// relative to the diagonal, as Marquardt proposed in 1963).
 ///   linearise(state) -> NormalEquations<N>
@@ -33,13 +51,9 @@ State minimise(State state, const Linearise& linearise, const Retract& retract,
   NormalEquations<N> here = linearise(state);
   double damping = 1e-6;
   for (int i = 0; i < max_iterations && here.cost > 0.0; ++i) {
-    Eigen::Matrix<double, N, N> damped = here.hessian;
-    // The trace keeps the system definite where a parameter has no influence at all.
-    damped.diagonal() += damping * here.hessian.diagonal();
-    damped.diagonal().array() += 1e-15 * here.hessian.trace();
-    const Eigen::LDLT<Eigen::Matrix<double, N, N>> solver(damped);
-    if (!(solver.vectorD().minCoeff() > 0.0)) break;
-    const State next = retract(state, solver.solve(-here.gradient));
+    const auto step = damped_step(here, damping);
+    if (!step) break;
+    const State next = retract(state, *step);
     const NormalEquations<N> there = linearise(next);
     if (!(there.cost < here.cost)) {
       damping *= 10.0;

@@ -1,7 +1,9 @@
 #include "geometry/pose.h"
 
+#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <cmath>
+#include <complex>
 
 namespace lumibox::geometry {
 namespace {
@@ -23,6 +25,27 @@ Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& omega) {
   }
   const Eigen::Matrix3d w = skew(omega);
   return Eigen::Matrix3d::Identity() + a * w + b * w * w;
+}
+
+/// (e^z - 1) / z, the integral of e^(z u) over u from 0 to 1.
+std::complex<double> mean_exponential(const std::complex<double>& z) {
+  if (std::abs(z) > 0.5) return (std::exp(z) - 1.0) / z;
+  // The difference above cancels; of the series, the first term left out is below 1e-17.
+  std::complex<double> sum = 1.0;
+  for (int n = 15; n > 1; --n) sum = 1.0 + sum * z / static_cast<double>(n);
+  return sum;
+}
+
+/// V in exp_sim3: translation = V * rho, the mean of scale^u R^u over u from 0 to 1. Along the axis
+/// that is a mean of e^(sigma u), across it one of e^((sigma + i angle) u). Written with the unit
+/// axis instead of Strasdat's three coefficients nothing is divided by the angle's square.
+Eigen::Matrix3d mean_similarity(const Eigen::Vector3d& omega, double sigma) {
+  const double angle = omega.norm();
+  const Eigen::Matrix3d axis = angle > 0.0 ? skew(omega / angle) : Eigen::Matrix3d::Zero();
+  const std::complex<double> across = mean_exponential({sigma, angle});
+  const double along = mean_exponential(sigma).real();
+  return along * Eigen::Matrix3d::Identity() + across.imag() * axis +
+         (along - across.real()) * axis * axis;
 }
 
 }  // namespace
@@ -50,6 +73,23 @@ Vector6d log_se3(const Pose& pose) {
 Similarity Similarity::inverse() const {
   const Eigen::Quaterniond back = rigid.rotation.conjugate();
   return {1.0 / scale, {back, back * rigid.translation * (-1.0 / scale)}};
+}
+
+Similarity exp_sim3(const Vector7d& twist) {
+  const Eigen::Vector3d omega = twist.segment<3>(3);
+  const double sigma = twist[6];
+  return {std::exp(sigma), {exp_so3(omega), mean_similarity(omega, sigma) * twist.head<3>()}};
+}
+
+Vector7d log_sim3(const Similarity& similarity) {
+  const Eigen::Vector3d omega = log_so3(similarity.rigid.rotation);
+  const double sigma = std::log(similarity.scale);
+  Vector7d twist;
+  twist.head<3>() =
+      mean_similarity(omega, sigma).partialPivLu().solve(similarity.rigid.translation);
+  twist.segment<3>(3) = omega;
+  twist[6] = sigma;
+  return twist;
 }
 
 Similarity align_umeyama(const Eigen::Matrix3Xd& source, const Eigen::Matrix3Xd& target) {

@@ -9,6 +9,7 @@ namespace lumibox::geometry {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector7d = Eigen::Matrix<double, 7, 1>;
 
 /// A rigid transform, element of SE(3); variables are named target_from_source, so that
 /// `point_in_world = world_from_camera * point_in_camera`. The quaternion is unit.
@@ -57,8 +58,22 @@ struct Similarity {
     return {(rigid.rotation * world_from_camera.rotation).normalized(),
             *this * world_from_camera.translation};
   }
+  /// Composition; the quaternion is renormalised, as that of a Pose is.
+  Similarity operator*(const Similarity& other) const {
+    return {
+        scale * other.scale,
+        {(rigid.rotation * other.rigid.rotation).normalized(), *this * other.rigid.translation}};
+  }
   Similarity inverse() const;
 };
+
+/// Exponential of a twist with growth (translation part, rotation, logarithm of scale), Strasdat,
+/// Montiel and Davison, "Scale drift-aware large scale monocular SLAM", 2010. Exact to rounding at
+/// every angle and scale, zero and 1 included.
+Similarity exp_sim3(const Vector7d& twist);
+
+/// Inverse of exp_sim3 with rotation angle in [0, pi]. Precondition: scale > 0.
+Vector7d log_sim3(const Similarity& similarity);
 
 /// Least-squares similarity with target ~ result * source (Umeyama, PAMI 1991). Columns are points;
 /// the sets correspond column by column. Rotation is proper even for planar or reflected sets; with

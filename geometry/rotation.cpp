@@ -52,11 +52,10 @@ Eigen::Quaterniond canonical(const Eigen::Quaterniond& q) {
 Eigen::Vector3d slerp(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double t) {
   const double angle = angle_between(from, to);
   Eigen::Vector3d side = to - from.dot(to) * from;  // the part of `to` perpendicular to `from`
-  if (side.norm() < 1e-12) {
-    if (angle < 1.0) return from;
-    side = from.unitOrthogonal();
-  }
+  if (side.norm() < 4e-16) side = from.unitOrthogonal();  // rounding, no direction
   side.normalize();
+  // Of a short difference the rounding was enlarged with it; what of it lies along `from` goes now.
+  side = (side - from.dot(side) * from).normalized();
   return (std::cos(t * angle) * from + std::sin(t * angle) * side).normalized();
 }
 

@@ -18,9 +18,15 @@ std::vector<double> wide_weights(const std::vector<double>& penalties, double li
                                  double exponent) {
   std::vector<double> weights;
   weights.reserve(penalties.size());
+  double nearest = 0.0;
   for (const double penalty : penalties) {
-    const double nearness = limit > 0.0 ? std::max(0.0, 1.0 - penalty / limit) : 0.0;
-    weights.push_back(std::pow(nearness, std::max(0.0, exponent)));
+    weights.push_back(limit > 0.0 ? std::max(0.0, 1.0 - penalty / limit) : 0.0);
+    nearest = std::max(nearest, weights.back());
+  }
+  for (double& weight : weights) {
+    // Relative to the nearest: near the limit a high power of all of them would be 0.
+    if (nearest > 0.0) weight /= nearest;
+    weight = std::pow(weight, std::max(0.0, exponent));
   }
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
   for (double& weight : weights) {

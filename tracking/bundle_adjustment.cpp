@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "geometry/rotation.h"
 
@@ -21,6 +22,11 @@ PoseBlock to_block(const geometry::Pose& pose) {
   const auto& q = pose.rotation;
   const auto& t = pose.translation;
   return {q.x(), q.y(), q.z(), q.w(), t.x(), t.y(), t.z()};
+}
+
+/// The same pose where lengths are `scale` times as large.
+geometry::Pose scaled(const geometry::Pose& pose, double scale) {
+  return {pose.rotation, scale * pose.translation};
 }
 
 geometry::Pose from_block(const double* b) {
@@ -57,10 +63,11 @@ class LeftTwistManifold : public ceres::Manifold {
 
 class ReprojectionCost : public ceres::SizedCostFunction<2, 7, 3> {
  public:
-  ReprojectionCost(const geometry::Camera& camera, const BundleProblem::Observation& observation)
+  ReprojectionCost(const geometry::Camera& camera, const BundleProblem::Observation& observation,
+                   double unit)
       : camera_(camera),
         pixel_(observation.pixel),
-        row_from_frame_(observation.row_from_frame),
+        row_from_frame_(scaled(observation.row_from_frame, 1.0 / unit)),
         inverse_sigma_(1.0 / observation.sigma_px) {}
 
   bool Evaluate(const double* const* parameters, double* residuals,
@@ -95,11 +102,30 @@ class ReprojectionCost : public ceres::SizedCostFunction<2, 7, 3> {
   double inverse_sigma_;
 };
 
+/// Length that the solver measures in: how far the views' centres are from their mean. Its damping
+/// and its stopping rule have absolute thresholds, and a monocular world has no scale of its own.
+double unit_of(const BundleProblem& problem) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const auto& view : problem.views) mean += view.camera_from_world.inverse().translation;
+  mean /= static_cast<double>(std::max<std::size_t>(problem.views.size(), 1));
+  double spread = 0.0;
+  for (const auto& view : problem.views) {
+    spread = std::max(spread, (view.camera_from_world.inverse().translation - mean).norm());
+  }
+  return spread > 0.0 ? spread : 1.0;
+}
+
+/// Pixel at which an observation should be, as the problem stands.
+std::optional<Eigen::Vector2d> predict(const geometry::Camera& camera, const BundleProblem& problem,
+                                       const BundleProblem::Observation& o) {
+  const auto& view = problem.views[static_cast<std::size_t>(o.view)];
+  const auto& point = problem.points[static_cast<std::size_t>(o.point)];
+  return camera.project(o.row_from_frame * (view.camera_from_world * point));
+}
+
 void set_errors(const geometry::Camera& camera, BundleProblem& problem) {
   for (auto& o : problem.observations) {
-    const auto& view = problem.views[static_cast<std::size_t>(o.view)];
-    const auto& point = problem.points[static_cast<std::size_t>(o.point)];
-    const auto pixel = camera.project(o.row_from_frame * (view.camera_from_world * point));
+    const auto pixel = predict(camera, problem, o);
     o.error_in_sigma =
         pixel ? (*pixel - o.pixel).norm() / o.sigma_px : std::numeric_limits<double>::infinity();
   }
@@ -118,10 +144,14 @@ ceres::Solver::Options solver_options(int max_iterations) {
 }  // namespace
 
 bool adjust(const geometry::Camera& camera, BundleProblem& problem, int max_iterations) {
+  const double unit = unit_of(problem);
   std::vector<PoseBlock> views;
   views.reserve(problem.views.size());
-  for (const auto& view : problem.views) views.push_back(to_block(view.camera_from_world));
+  for (const auto& view : problem.views) {
+    views.push_back(to_block(scaled(view.camera_from_world, 1.0 / unit)));
+  }
   std::vector<Eigen::Vector3d> points = problem.points;
+  for (auto& point : points) point /= unit;
 
   ceres::Problem::Options ownership;
   ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -131,9 +161,11 @@ bool adjust(const geometry::Camera& camera, BundleProblem& problem, int max_iter
   ceres::Problem solver(ownership);
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   for (const auto& o : problem.observations) {
+    // Without a residual at the start the solver would not begin.
+    if (!predict(camera, problem, o)) continue;
     double* view = views[static_cast<std::size_t>(o.view)].data();
     double* point = points[static_cast<std::size_t>(o.point)].data();
-    solver.AddResidualBlock(new ReprojectionCost(camera, o), &loss, view, point);
+    solver.AddResidualBlock(new ReprojectionCost(camera, o, unit), &loss, view, point);
     ordering->AddElementToGroup(point, 0);
     ordering->AddElementToGroup(view, 1);
   }
@@ -150,9 +182,12 @@ bool adjust(const geometry::Camera& camera, BundleProblem& problem, int max_iter
   if (!summary.IsSolutionUsable()) return false;
 
   for (std::size_t i = 0; i < views.size(); ++i) {
-    if (!problem.views[i].fixed) problem.views[i].camera_from_world = from_block(views[i].data());
+    if (problem.views[i].fixed) continue;
+    problem.views[i].camera_from_world = scaled(from_block(views[i].data()), unit);
   }
-  problem.points = std::move(points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (solver.HasParameterBlock(points[i].data())) problem.points[i] = unit * points[i];
+  }
   set_errors(camera, problem);
   return true;
 }

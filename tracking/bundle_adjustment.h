@@ -29,9 +29,9 @@ struct BundleProblem {
 
 /// Minimises the Huber cost of all reprojection errors over the views not fixed and all points
 /// (Triggs et al., "Bundle adjustment - a modern synthesis", 2000), single threaded and
-/// deterministic. Views should be fixed so that the gauge is. A point that ends up behind a view
-/// that sees it gets an infinite error there. Returns false, with nothing changed, if the solver
-/// failed.
+/// deterministic. Views should be fixed so that the gauge is. The scale of the world does not
+/// matter. An observation of a point that starts behind its view takes no part; one that ends there
+/// gets an infinite error. Returns false, with nothing changed, if the solver failed.
 bool adjust(const geometry::Camera& camera, BundleProblem& problem, int max_iterations);
 
 }  // namespace lumibox::tracking

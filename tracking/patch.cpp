@@ -20,8 +20,9 @@ constexpr float kMaxGain = 10.0F;
 constexpr int kMinVariance = 6 * kArea;  // grey levels squared, summed: contrast of 2.5 levels
 
 float bilinear(const hal::Image& image, float x, float y) {
-  const int x0 = static_cast<int>(x);
-  const int y0 = static_cast<int>(y);
+  // Rounded to float, a place inside may lie on the last pixel, which has no neighbour.
+  const int x0 = std::min(static_cast<int>(x), image.width() - 2);
+  const int y0 = std::min(static_cast<int>(y), image.height() - 2);
   const float ax = x - static_cast<float>(x0);
   const float ay = y - static_cast<float>(y0);
   const std::uint8_t* above = image.row(y0) + x0;
