@@ -62,7 +62,8 @@ Eigen::Matrix<Real, 2, 1> align(const hal::Image& image, const PatchTemplate& pa
       gradient += slope(u, v) * (seen - wanted);
     }
     const Vector4 step = hessian.inverse() * gradient;
-    state += Vector4(-step[0], -step[1], step[2], step[3]);
+    const Real contrast = 1 + (state[3] + step[3]) / 50;
+    state += Vector4(-step[0] / contrast, -step[1] / contrast, step[2], step[3]);
     if (step.template head<2>().norm() < Real(0.01)) break;
   }
   return state.template head<2>();
