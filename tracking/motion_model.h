@@ -19,7 +19,8 @@ class MotionModel {
   void next_frame(const Pyramid& picture, std::int64_t timestamp_ns);
 
   const SmallImage& picture() const { return current_; }
-  double interval_s() const { return interval_s_; }
+  std::int64_t timestamp_ns() const { return timestamp_ns_; }  ///< of the new frame
+  double interval_s() const { return interval_s_; }            ///< since the last
 
   /// Pose of the new frame, from that of the last.
   geometry::FramePose predict(const geometry::Pose& last_from_world) const;

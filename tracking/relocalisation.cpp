@@ -9,12 +9,8 @@ constexpr double kAlike = 0.6;      // of the inliers of the best place
 constexpr double kSameTurn = 0.35;  // radians; nearer places are one
 constexpr double kSamePlace = 0.2;  // depths
 
-geometry::Pose apart(const geometry::Pose& a, const geometry::Pose& b) {
-  return a * b.inverse();
-}
-
 bool is_same(const PossiblePlace& a, const PossiblePlace& b, double depth) {
-  const geometry::Pose motion = apart(a.camera_from_world, b.camera_from_world);
+  const geometry::Pose motion = a.camera_from_world * b.camera_from_world.inverse();
   return motion.translation.norm() < kSamePlace * depth &&
          motion.rotation.angularDistance(Eigen::Quaterniond::Identity()) < kSameTurn;
 }

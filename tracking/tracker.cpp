@@ -41,7 +41,6 @@ class Tracker::Impl {
     result.timestamp_ns = timestamp_ns;
     const auto frame = std::make_shared<const Pyramid>(gray, options_.pyramid_levels);
     motion_.next_frame(*frame, timestamp_ns);
-    timestamp_ns_ = timestamp_ns;
     visible_.clear();
     if (!map_) {
       initialise(frame, result);
@@ -119,7 +118,7 @@ class Tracker::Impl {
     mapper_.start(*progress.map);
     map_ = mapper_.view();
     anchor_ = 1;
-    last_pose_ns_ = timestamp_ns_;
+    last_pose_ns_ = motion_.timestamp_ns();
     anchor_from_camera_ = geometry::Pose();
     camera_from_world_ = keyframe(1).camera_from_world;
     for (const MapView::Point& p : map_->points) visible_.push_back(p.position);
@@ -161,7 +160,7 @@ class Tracker::Impl {
       places.push_back({here->pose.camera_from_world, here->inliers});
       found.push_back(std::move(*here));
     }
-    const double seconds = 1e-9 * static_cast<double>(timestamp_ns_ - last_pose_ns_);
+    const double seconds = 1e-9 * static_cast<double>(motion_.timestamp_ns() - last_pose_ns_);
     const auto chosen =
         choose_place(places, {camera_from_world_, keyframe(anchor_).median_depth, seconds});
     if (!chosen) return std::nullopt;
@@ -203,7 +202,7 @@ class Tracker::Impl {
     show(*found);
     chooser_.note(*map_, *found);
     last_good_ = good ? frame : nullptr;
-    if (good) last_pose_ns_ = timestamp_ns_;
+    if (good) last_pose_ns_ = motion_.timestamp_ns();
     report_pose(good ? TrackingState::Good : TrackingState::Poor, found->inliers, result);
   }
 
@@ -274,7 +273,6 @@ class Tracker::Impl {
 
   std::shared_ptr<const MapView> map_;  // the copy in use; null before initialisation
   geometry::Pose camera_from_world_;    // of the last frame with a pose
-  std::int64_t last_timestamp_ns_ = 0;
   geometry::FramePose predicted_;             // of the present frame
   std::shared_ptr<const Pyramid> last_good_;  // the last frame, if its pose was good
   int frames_turned_ = 0;                     // since the map last showed
@@ -283,7 +281,6 @@ class Tracker::Impl {
   bool lost_ = false;
   bool jumped_ = false;  // this frame was located anew
   int bad_frames_ = 0;
-  std::int64_t timestamp_ns_ = 0;  // of the present frame
   std::int64_t last_pose_ns_ = 0;  // of the last good one
   int relocalisations_ = 0;
   std::vector<Eigen::Vector3d> visible_;

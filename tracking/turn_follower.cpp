@@ -1,5 +1,6 @@
 #include "tracking/turn_follower.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -95,9 +96,11 @@ std::optional<Eigen::Quaterniond> TurnFollower::follow(
     return std::nullopt;
   }
   const Eigen::Quaterniond turned = estimate.pose.camera_from_world.rotation;
-  if (panorama_.keyframes.back().camera_from_world.rotation.angularDistance(turned) > kStep) {
-    extend(picture, turned);
-  }
+  // Of all its pictures, not of the last: who turns to and fro for an hour adds none.
+  const bool is_new = std::ranges::all_of(panorama_.keyframes, [&](const auto& keyframe) {
+    return keyframe.camera_from_world.rotation.angularDistance(turned) > kStep;
+  });
+  if (is_new) extend(picture, turned);
   return turned;
 }
 

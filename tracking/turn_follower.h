@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -21,6 +22,9 @@ class TurnFollower {
   TurnFollower(const geometry::Camera& camera, const config::Tracking& options);
 
   bool active() const { return !panorama_.keyframes.empty(); }
+
+  /// Pictures of the panorama: what a long turn takes in memory.
+  std::size_t pictures() const { return panorama_.keyframes.size(); }
 
   /// Begins with a picture whose orientation is known.
   void start(const std::shared_ptr<const Pyramid>& picture,
