@@ -185,12 +185,11 @@ void bench_simulation(const BenchOptions& options) {
   const std::filesystem::path json = options.out / "simulation.jsonl";
   require_writable(json);
   Lines lines(json);
-  for (const char* name :
-       {"toy", "statue_orbit", "facade", "crystal_ball", "person", "night_webcam"}) {
+  for (const std::string& name : scene_names()) {
     const auto line =
         bench::measure_sim_frame(hal::load_scene(find_scene(name)), name, options.frames);
     lines.add(line);
-    std::printf("%-16s %8.1f ms median of a frame, %8.1f ms p95\n", name,
+    std::printf("%-16s %8.1f ms median of a frame, %8.1f ms p95\n", name.c_str(),
                 line["cpu_ms"]["median"].get<double>(), line["cpu_ms"]["p95"].get<double>());
   }
   std::printf("%s\n", json.c_str());

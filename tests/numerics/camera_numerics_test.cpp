@@ -3,22 +3,12 @@
 
 #include "geometry/camera.h"
 #include "numerics/trap.h"
+#include "numerics/webcam.h"
 
 namespace lumibox::geometry {
 namespace {
 
 using CameraNumerics = Trapped;
-
-config::CameraProfile webcam() {
-  config::CameraProfile profile;
-  profile.width = 640;
-  profile.height = 480;
-  profile.fx = 520.0;
-  profile.fy = 525.0;
-  profile.cx = 325.0;
-  profile.cy = 235.0;
-  return profile;
-}
 
 void expect_round_trip(const Camera& camera) {
   for (int v = 0; v < camera.height(); v += 7) {

@@ -3,6 +3,7 @@
 
 #include "geometry/camera.h"
 #include "numerics/trap.h"
+#include "numerics/webcam.h"
 
 namespace lumibox::geometry {
 namespace {
@@ -10,13 +11,7 @@ namespace {
 using DistortionNumerics = Trapped;
 
 config::CameraProfile lens(double k1, double k2, double p1, double p2, double k3) {
-  config::CameraProfile profile;
-  profile.width = 640;
-  profile.height = 480;
-  profile.fx = 520.0;
-  profile.fy = 525.0;
-  profile.cx = 325.0;
-  profile.cy = 235.0;
+  config::CameraProfile profile = webcam();
   profile.k1 = k1;
   profile.k2 = k2;
   profile.p1 = p1;
