@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <system_error>
 
 #include "config/error.h"
@@ -27,6 +28,17 @@ void require_writable(const std::filesystem::path& file) {
   }
   if (!is_there) {
     std::filesystem::remove(file, ignored);
+  }
+}
+
+void require_distinct(std::span<const std::filesystem::path> files) {
+  std::set<std::filesystem::path> seen;
+  for (const std::filesystem::path& file : files) {
+    std::error_code ignored;
+    if (std::filesystem::is_character_file(file, ignored)) continue;
+    if (!seen.insert(std::filesystem::weakly_canonical(file, ignored)).second) {
+      throw config::InputError(file, "named for two results; expected a file for each");
+    }
   }
 }
 

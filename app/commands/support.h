@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 
 #include "config/config.h"
 #include "config/loader.h"
@@ -15,6 +16,10 @@ config::Config load_config(const config::Sources& sources);
 /// Says before the work that a result of it can be written there, and makes the folder it will be
 /// in; throws config::InputError if not. A file that is there keeps its content.
 void require_writable(const std::filesystem::path& file);
+
+/// Throws config::InputError if two of the files to be written are one. What is written to devices
+/// (/dev/null) does not overwrite.
+void require_distinct(std::span<const std::filesystem::path> files);
 
 /// Writes a JSON file; throws config::InputError if it cannot.
 void write_json(const std::filesystem::path& file, const nlohmann::json& json);

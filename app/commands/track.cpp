@@ -97,19 +97,15 @@ void say(const TrackReport& report, const nlohmann::json& json) {
 
 /// An hour of tracking must not end at a mistyped folder.
 void try_outputs(const TrackOptions& options) {
+  std::vector<std::filesystem::path> files = {options.out};
+  for (const auto& file : {options.live, options.json, options.plot}) {
+    if (file) files.push_back(*file);
+  }
+  require_distinct(files);
   if (options.capture) {
     lightfield::make_new_folder({}, *options.capture);
   }
-  require_writable(options.out);
-  if (options.live) {
-    require_writable(*options.live);
-  }
-  if (options.json) {
-    require_writable(*options.json);
-  }
-  if (options.plot) {
-    require_writable(*options.plot);
-  }
+  for (const auto& file : files) require_writable(file);
 }
 
 /// Brings the capture to disk and says what it came to.

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <span>
 
+#include "hal/sim/off_surface.h"
+
 namespace lumibox::hal::sim {
 namespace {
 
@@ -100,8 +102,7 @@ Incoming incoming_light(const LightSpec& light, const Eigen::Vector3f& point) {
 
 Color baked_light(RTCScene scene, const std::vector<LightSpec>& lights,
                   const Eigen::Vector3f& point, const Eigen::Vector3f& normal) {
-  // Off the surface by more than the rounding of its coordinates.
-  const Eigen::Vector3f origin = point + 1e-4f * std::max(1.0f, point.norm()) * normal;
+  const Eigen::Vector3f origin = off_surface(point, normal);
   Color total = Color::Zero();
   for (const LightSpec& light : lights) {
     if (light.shadows == Shadows::Traced) continue;

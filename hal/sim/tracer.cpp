@@ -5,16 +5,12 @@
 #include <cmath>
 #include <limits>
 
-#include "hal/sim/light_bake.h"
 #include "hal/newer_processors.h"
+#include "hal/sim/light_bake.h"
+#include "hal/sim/off_surface.h"
 
 namespace lumibox::hal::sim {
 namespace {
-
-/// A start off a surface, beyond the rounding of its coordinates, on the side `normal` points to.
-Eigen::Vector3f off_surface(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) {
-  return point + 3e-5f * std::max(1.0f, point.cwiseAbs().maxCoeff()) * normal;
-}
 
 /// Share of unpolarised light that a surface between media reflects (Fresnel); cosines of the
 /// angles to the normal on both sides, `ior` of the second medium relative to the first.
@@ -199,7 +195,7 @@ void Tracer::paint(MattePoints& points) {
 
 Color Tracer::traced_light(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) {
   Color total = Color::Zero();
-  const Eigen::Vector3f origin = point + 1e-4f * std::max(1.0f, point.norm()) * normal;
+  const Eigen::Vector3f origin = off_surface(point, normal);
   for (const LightSpec& light : traced_lights_) {
     const Incoming incoming = incoming_light(light, point);
     const float cosine = normal.dot(incoming.towards_light);

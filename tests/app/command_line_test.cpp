@@ -31,11 +31,13 @@ struct Outcome {
   std::string err;
 };
 
-/// Runs `lumibox` with these arguments, as a shell takes them.
-Outcome lumibox(const std::string& arguments) {
+/// Runs `lumibox` with these arguments, as a shell takes them, its output into a file of its own or
+/// that named.
+Outcome lumibox(const std::string& arguments, const std::string& output = {}) {
   const TempDir dir;
   const std::string command = std::string(LUMIBOX_EXECUTABLE) + " " + arguments + " >" +
-                              (dir / "out").string() + " 2>" + (dir / "err").string();
+                              (output.empty() ? (dir / "out").string() : output) + " 2>" +
+                              (dir / "err").string();
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(dir / "out"),
           read_text(dir / "err")};
@@ -67,9 +69,8 @@ std::string small_capture(const Recording& recording) {
 
 TEST(CommandLine, EveryCommandExplainsItselfWithAnExample) {
   EXPECT_THAT(lumibox("--help").out, HasSubstr("COMMAND --help"));
-  for (const std::string command :
-       {"run", "demo", "track", "render", "evaluate", "import", "export", "calibrate", "sim",
-        "bench"}) {
+  for (const std::string command : {"run", "demo", "track", "render", "evaluate", "import",
+                                    "export", "calibrate", "sim", "bench"}) {
     const Outcome outcome = lumibox(command + " --help");
     EXPECT_EQ(outcome.status, 0);
     EXPECT_THAT(outcome.out, AllOf(HasSubstr("Example:"), HasSubstr("lumibox " + command)));
@@ -285,6 +286,22 @@ TEST(CommandLine, PlacesForResultsAreTriedBeforeTheWork) {
   EXPECT_FALSE(std::filesystem::exists(out)) << "nothing was tracked, and the trial left nothing";
   EXPECT_COMPLAINT(lumibox("evaluate /nowhere/capture --json " + dir.path().string()),
                    HasSubstr(dir.path().string() + ": cannot be written: Is a directory"));
+}
+
+TEST(CommandLine, TwoResultsAreNotOneFile) {
+  const Recording recording;
+  const TempDir dir;
+  const std::string out = (dir / "out.tum").string();
+  const std::string again = (dir / "." / "out.tum").string();
+  for (const char* option : {" --live ", " --json ", " --plot "}) {
+    EXPECT_COMPLAINT(
+        lumibox("track " + recording.folder().string() + " --out " + out + option + again),
+        HasSubstr(again + ": named for two results"));
+  }
+}
+
+TEST(CommandLine, OutputThatGoesNowhereIsAnError) {
+  EXPECT_COMPLAINT(lumibox("--version", "/dev/full"), HasSubstr("standard output"));
 }
 
 TEST(CommandLine, BenchTriesItsPlaceBeforeTheWork) {
