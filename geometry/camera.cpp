@@ -77,13 +77,26 @@ std::optional<double> first_zero(double end, const Function& function) {
   return std::nullopt;
 }
 
-/// Squared radius at which d(r * radial(r))/dr = 1 + 3 k1 r2 + 5 k2 r4 + 7 k3 r6 reaches zero, in
-/// every field of view a rectilinear lens can have (r <= 10 is 168 degrees).
+/// Least determinant of the distortion's derivative among all directions at the radius r. With the
+/// decentring p = (p2, p1) at the angle phi to the direction, the derivative in the basis (along,
+/// across) is
+///     | g + 6 |p| r cos(phi)         2 |p| r sin(phi)     |
+///     | 2 |p| r sin(phi)       radial + 2 |p| r cos(phi)  |
+/// with g = d(r radial)/dr = 1 + 3 k1 r2 + 5 k2 r4 + 7 k3 r6: a quadratic in cos(phi).
+double least_determinant(const config::CameraProfile& c, double r) {
+  const double r2 = r * r;
+  const double radial = polynomial(c, r2).factor;
+  const double g = 1.0 + r2 * (3.0 * c.k1 + r2 * (5.0 * c.k2 + r2 * 7.0 * c.k3));
+  const double pr = std::hypot(c.p1, c.p2) * r;
+  const double linear = (2.0 * g + 6.0 * radial) * pr;
+  const double lowest = pr > 0.0 ? std::clamp(-linear / (32.0 * pr * pr), -1.0, 1.0) : 0.0;
+  return g * radial - 4.0 * pr * pr + lowest * (linear + 16.0 * pr * pr * lowest);
+}
+
+/// Squared radius inside which no direction has a fold, in every field of view a rectilinear lens
+/// can have (r <= 10 is 168 degrees).
 double find_fold(const config::CameraProfile& c) {
-  const auto fold = first_zero(10.0, [&c](double r) {
-    const double r2 = r * r;
-    return 1.0 + r2 * (3.0 * c.k1 + r2 * (5.0 * c.k2 + r2 * 7.0 * c.k3));
-  });
+  const auto fold = first_zero(10.0, [&c](double r) { return least_determinant(c, r); });
   return fold ? *fold * *fold : std::numeric_limits<double>::infinity();
 }
 

@@ -35,8 +35,8 @@ class Camera {
   /// Distorted pixel of undistorted normalised coordinates, without the check for the fold.
   Eigen::Vector2d distort(const Eigen::Vector2d& normalised) const;
 
-  /// Squared normalised radius at which the radial distortion folds; infinite if it never does, but
-  /// 1e6 at most for a fisheye lens (89.9 degrees from the optical axis).
+  /// Squared normalised radius at which the distortion first folds, of all directions; infinite if
+  /// it never does, but 1e6 at most for a fisheye lens (89.9 degrees from the optical axis).
   double fold_radius2() const { return fold_radius2_; }
 
   /// True if the pixel lies inside the image, at least `border` pixels from the outermost centres.

@@ -26,7 +26,8 @@ std::vector<config::CameraProfile> lenses() {
   return {lens(-0.28, 0.09, 1e-3, -8e-4, 0.0), lens(0.25, -0.05, 0.0, 0.0, 0.02),
           lens(-0.35, 0.15, 0.0, 0.0, -0.03),  lens(0.05, -0.2, 5e-3, -5e-3, 0.3),
           lens(-0.4, 0.0, 0.0, 0.0, 0.0),      lens(-0.9, 0.0, 0.0, 0.0, 0.0),
-          lens(0.1, -0.9, 0.0, 0.0, 0.0),      lens(-0.5, 0.3, 0.0, 0.0, -0.1)};
+          lens(0.1, -0.9, 0.0, 0.0, 0.0),      lens(-0.5, 0.3, 0.0, 0.0, -0.1),
+          lens(-0.4, 0.0, 0.03, 0.05, 0.0)};
 }
 
 // 1e-6 px: a thousandth of the best corner localisation is 1e-5. Every pixel either comes back or
@@ -53,7 +54,6 @@ TEST_F(DistortionNumerics, EveryPixelComesBackOrIsRefused) {
 // the pixel over the slope, which falls to 0 at the fold: 1e-12 over a slope of 1e-3.
 TEST_F(DistortionNumerics, EveryDirectionInsideTheFoldIsFound) {
   for (const config::CameraProfile& profile : lenses()) {
-    if (profile.p1 != 0.0) continue;  // the fold of a decentred lens is no circle
     const Camera camera(profile);
     const double limit = std::min(0.999 * std::sqrt(camera.fold_radius2()), 1.5);
     for (int ring = 0; ring <= 100; ++ring) {
@@ -81,6 +81,25 @@ TEST_F(DistortionNumerics, BeyondTheFoldEveryDirectionIsRefused) {
       EXPECT_FALSE(camera.project({0.0, -beyond * fold, 1.0}));
     }
   }
+}
+
+// A decentred lens folds first on the side away from its decentring. There the derivative along the
+// radius, by central differences of 1e-6 (good to 1e-9), reaches 0 at the fold and not before.
+TEST_F(DistortionNumerics, ADecentredLensFoldsWhereItsDerivativeVanishes) {
+  const config::CameraProfile profile = lens(-0.4, 0.0, 0.03, 0.05, 0.0);
+  const Camera camera(profile);
+  const Eigen::Vector2d away = -Eigen::Vector2d(profile.p2, profile.p1).normalized();
+  const auto slope = [&](double r) {
+    constexpr double kStep = 1e-6;
+    const Eigen::Vector2d difference =
+        camera.distort((r + kStep) * away) - camera.distort((r - kStep) * away);
+    return away.dot(difference.cwiseQuotient(Eigen::Vector2d(profile.fx, profile.fy))) /
+           (2.0 * kStep);
+  };
+  const double fold = std::sqrt(camera.fold_radius2());
+  for (int i = 1; i < 100; ++i) EXPECT_GT(slope(0.01 * i * fold), 1e-3) << i;
+  EXPECT_NEAR(slope(fold), 0.0, 1e-8);
+  EXPECT_LT(fold, 0.9 / std::sqrt(1.2)) << "without the decentring: 1 / sqrt(3 * 0.4)";
 }
 
 // Central differences of step 1e-6 leave 1e-10 of second derivatives and 1e-7 px of rounding
