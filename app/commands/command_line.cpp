@@ -1,6 +1,8 @@
 #include "app/commands/command_line.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -8,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/commands/commands.h"
@@ -277,12 +280,76 @@ void add_calibrate(CLI::App& app) {
       ->capture_default_str();
 }
 
+/// The index of a word among those allowed.
+template <std::size_t n>
+std::size_t index_of(const std::array<std::string_view, n>& words, const std::string& word) {
+  return static_cast<std::size_t>(std::ranges::find(words, word) - words.begin());
+}
+
+template <std::size_t n>
+CLI::IsMember one_of(const std::array<std::string_view, n>& words) {
+  return CLI::IsMember(std::vector<std::string>(words.begin(), words.end()));
+}
+
+/// Options come in any order, so whichever is first makes the random scene.
+hal::sim::RandomSceneOptions& random_scene(SimOptions& options) {
+  return options.random_scene ? *options.random_scene : options.random_scene.emplace();
+}
+
+/// What may be stated of a random scene, all else drawn.
+void add_random_scene(CLI::App* command, CLI::Option* seed,
+                      const std::shared_ptr<SimOptions>& options) {
+  namespace sim = hal::sim;
+  command
+      ->add_option_function<std::string>(
+          "--place",
+          [options](const std::string& name) {
+            random_scene(*options).place =
+                static_cast<sim::Place>(index_of(sim::kPlaceNames, name));
+          },
+          "where the random scene is (default: drawn)")
+      ->check(one_of(sim::kPlaceNames))
+      ->needs(seed);
+  command
+      ->add_option_function<std::string>(
+          "--walk",
+          [options](const std::string& name) {
+            random_scene(*options).walk = static_cast<sim::Walk>(index_of(sim::kWalkNames, name));
+          },
+          "how it is walked (default: drawn)")
+      ->check(one_of(sim::kWalkNames))
+      ->needs(seed);
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--effects",
+          [options](const std::vector<std::string>& names) {
+            for (const std::string& name : names) {
+              random_scene(*options).effects.insert(
+                  static_cast<sim::Effect>(index_of(sim::kEffectNames, name)));
+            }
+          },
+          "effects of the random scene, commas between them (default: none)")
+      ->delimiter(',')
+      ->check(one_of(sim::kEffectNames))
+      ->needs(seed);
+}
+
 void add_sim(CLI::App& app) {
   const auto options = std::make_shared<SimOptions>();
-  CLI::App* command =
-      add_command(app, "sim", "Write a simulated recording with its ground truth.",
-                  "lumibox sim hal/sim/scenes/toy.toml --out toy/", options, simulate);
-  command->add_option("SCENE", options->scene, "scene file (TOML)")->required();
+  CLI::App* command = add_command(app, "sim", "Write a simulated recording with its ground truth.",
+                                  "lumibox sim --random 7 --place desk --walk orbit --out walk/",
+                                  options, simulate);
+  CLI::Option_group* source = command->add_option_group("Scene", "either of them");
+  source->add_option("SCENE", options->scene, "scene file (TOML)");
+  CLI::Option* seed =
+      source
+          ->add_option_function<std::uint64_t>(
+              "--random", [options](std::uint64_t n) { random_scene(*options).seed = n; },
+              "a scene drawn at random")
+          ->check(CLI::Range(std::uint32_t{0}, std::numeric_limits<std::uint32_t>::max()))
+          ->type_name("SEED");
+  source->require_option(1);
+  add_random_scene(command, seed, options);
   command->add_option("--out", options->out, "sequence folder to be made")
       ->type_name("SEQ")
       ->required();

@@ -9,6 +9,7 @@
 #include "app/auto_capture.h"
 #include "calibration/board.h"
 #include "config/loader.h"
+#include "hal/sim/random_scene.h"
 
 /// The subcommands and what each can be told; command_line.cpp says it to the person. All throw
 /// config::InputError for input that they cannot use.
@@ -93,7 +94,8 @@ void calibrate(const CalibrateOptions& options);
 
 struct SimOptions {
   config::Sources sources;
-  std::filesystem::path scene;
+  std::optional<std::filesystem::path> scene;                ///< a file
+  std::optional<hal::sim::RandomSceneOptions> random_scene;  ///< in its place
   std::filesystem::path out;
 };
 void simulate(const SimOptions& options);

@@ -11,7 +11,8 @@ namespace lumibox::app {
 void simulate(const SimOptions& options) {
   load_config(options.sources);
   hal::require_new_folder(options.out);
-  const auto scene = hal::load_scene(options.scene);
+  const auto scene = options.scene ? hal::load_scene(*options.scene)
+                                   : hal::make_scene(hal::sim::random_scene(*options.random_scene));
   make_parent_folder(options.out);
   {
     Progress progress("simulating", scene->frame_count());

@@ -1,29 +1,10 @@
 #include "hal/sim/effects_file.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
 
 namespace lumibox::hal::sim {
 namespace {
-
-enum class Effect {
-  LensDistortion,
-  RollingShutter,
-  MotionBlur,
-  Vignetting,
-  AutoExposure,
-  SensorNoise,
-  Reflection,
-  Refraction,
-  MovingSubject,
-  PassingOccluder,
-  DroppedFrames,
-};
-constexpr std::array<std::string_view, 11> kEffects{
-    "lens_distortion", "rolling_shutter",  "motion_blur",   "vignetting",
-    "auto_exposure",   "sensor_noise",     "reflection",    "refraction",
-    "moving_subject",  "passing_occluder", "dropped_frames"};
 
 std::uint64_t read_seed(CheckedTable& table) {
   return static_cast<std::uint64_t>(table.integer("seed", {0, 1e9}, 1));
@@ -159,7 +140,7 @@ EffectSpecs read_effects(CheckedTable& root, config::CameraProfile& camera) {
   EffectSpecs effects;
   std::set<Effect> seen;
   for (CheckedTable& table : root.tables("effects")) {
-    const auto effect = static_cast<Effect>(table.choice("kind", kEffects));
+    const auto effect = static_cast<Effect>(table.choice("kind", kEffectNames));
     const bool repeatable = effect == Effect::MovingSubject || effect == Effect::PassingOccluder;
     if (!seen.insert(effect).second && !repeatable) {
       table.fail("kind", "appears twice; this effect can be named once");

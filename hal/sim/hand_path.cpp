@@ -116,7 +116,7 @@ Wobble::Wobble(const WobbleSpec& spec) {
   }
 }
 
-geometry::Pose Wobble::at(double time_s) const {
+geometry::Pose Wobble::at(double time_s, double strength) const {
   Eigen::Vector<double, 6> value = Eigen::Vector<double, 6>::Zero();
   for (std::size_t axis = 0; axis < 6; ++axis) {
     for (const Wave& wave : waves_[axis]) {
@@ -124,10 +124,12 @@ geometry::Pose Wobble::at(double time_s) const {
           wave.amplitude * std::sin(wave.angular_frequency * time_s + wave.phase);
     }
   }
+  value *= strength;
   return {geometry::exp_so3(value.tail<3>()), value.head<3>()};
 }
 
-HandPath::HandPath(const PathSpec& spec, double duration_s) : tremor_(spec.tremor) {
+HandPath::HandPath(const PathSpec& spec, double duration_s)
+    : tremor_(spec.tremor), shake_(spec.shake), shaking_(shake_ ? shake_->wobble : WobbleSpec{}) {
   const int count = static_cast<int>(std::ceil(duration_s / knot_spacing_s_)) + 4;
   for (int i = 0; i < count; ++i) {
     // One knot before time 0, as the spline below wants.
@@ -147,7 +149,10 @@ geometry::Pose HandPath::world_from_camera(double time_s) const {
       ((1 - 3 * t + 3 * t2 - t3) * knots_[i] + (4 - 6 * t2 + 3 * t3) * knots_[i + 1] +
        (1 + 3 * t + 3 * t2 - 3 * t3) * knots_[i + 2] + t3 * knots_[i + 3]) /
       6.0;
-  return look_at(s.head<3>(), s.tail<3>()) * tremor_.at(time_s);
+  const geometry::Pose steady = look_at(s.head<3>(), s.tail<3>()) * tremor_.at(time_s);
+  if (!shake_) return steady;
+  const double through = std::clamp((time_s - shake_->start_s) / shake_->duration_s, 0.0, 1.0);
+  return steady * shaking_.at(time_s, std::pow(std::sin(std::numbers::pi * through), 2));
 }
 
 geometry::Pose look_at(const Eigen::Vector3d& position, const Eigen::Vector3d& target) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "geometry/pose.h"
@@ -15,7 +16,8 @@ class Wobble {
   explicit Wobble(const WobbleSpec& spec);
 
   /// Displacement (metres) and turn about the moved frame's own axes.
-  geometry::Pose at(double time_s) const;
+  /// `strength` scales both.
+  geometry::Pose at(double time_s, double strength = 1.0) const;
 
  private:
   struct Wave {
@@ -27,7 +29,7 @@ class Wobble {
 };
 
 /// Where the camera is and where it points over time: twice continuously differentiable, whatever
-/// corners the walk has.
+/// corners the walk has, but for the ends of a shake, where it is so once.
 class HandPath {
  public:
   HandPath(const PathSpec& spec, double duration_s);
@@ -38,6 +40,8 @@ class HandPath {
   std::vector<Eigen::Vector<double, 6>> knots_;  ///< position and target every knot_spacing_s_
   double knot_spacing_s_ = 0.25;
   Wobble tremor_;
+  std::optional<ShakeSpec> shake_;
+  Wobble shaking_;
 };
 
 /// Camera at `position` that looks at `target` with the world's z axis upwards in the picture.

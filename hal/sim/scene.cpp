@@ -50,7 +50,11 @@ Image Scene::render_ideal(const geometry::Camera& camera, const geometry::Pose& 
 }
 
 std::shared_ptr<const Scene> load_scene(const std::filesystem::path& file) {
-  return std::make_shared<const Scene>(std::make_unique<Scene::Impl>(sim::read_scene_file(file)));
+  return make_scene(sim::read_scene_file(file));
+}
+
+std::shared_ptr<const Scene> make_scene(const sim::SceneSpec& spec) {
+  return std::make_shared<const Scene>(std::make_unique<Scene::Impl>(spec));
 }
 
 }  // namespace lumibox::hal

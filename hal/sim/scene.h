@@ -13,6 +13,10 @@
 
 namespace lumibox::hal {
 
+namespace sim {
+struct SceneSpec;
+}
+
 /// A scene file (TOML) made ready: geometry, textures, lights, the hand's path, effects.
 /// docs/simulation.md describes the format.
 class Scene {
@@ -53,6 +57,9 @@ class Scene {
 
 /// Reads a scene file; throws config::InputError with file, line, key and what is allowed.
 std::shared_ptr<const Scene> load_scene(const std::filesystem::path& file);
+
+/// Makes a scene ready that did not come from a file, e.g. sim::random_scene().
+std::shared_ptr<const Scene> make_scene(const sim::SceneSpec& spec);
 
 /// Renders every frame of the scene with its effects into a sequence folder (rgb.txt, rgb/ as PNG,
 /// calib.txt, groundtruth.txt, subject.txt). `folder` must be empty or absent.

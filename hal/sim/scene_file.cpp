@@ -203,6 +203,7 @@ std::vector<KeyPose> read_keys(CheckedTable& path) {
 }
 
 PathSpec read_path(CheckedTable table) {
+  constexpr WobbleSpec kViolent{.min_hz = 3.0, .max_hz = 6.0};
   PathSpec path;
   if (std::optional<CheckedTable> orbit = table.table("orbit")) {
     path.orbit = read_orbit(*orbit, path.target);
@@ -219,6 +220,13 @@ PathSpec read_path(CheckedTable table) {
   if (std::optional<CheckedTable> tremor = table.table("tremor")) {
     path.tremor = read_wobble(*tremor, path.tremor);
     tremor->finish();
+  }
+  if (std::optional<CheckedTable> shake = table.table("shake")) {
+    path.shake.emplace();
+    path.shake->start_s = shake->number("start_s", {0.0, 1e5});
+    path.shake->duration_s = shake->number("duration_s", {1e-3, 1e5}, path.shake->duration_s);
+    path.shake->wobble = read_wobble(*shake, kViolent);
+    shake->finish();
   }
   table.finish();
   return path;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "config/camera_profile.h"
@@ -75,6 +77,13 @@ struct WobbleSpec {
   std::uint64_t seed = 1;
 };
 
+/// A jolt: a wobble that swells and dies away.
+struct ShakeSpec {
+  double start_s = 0.0;
+  double duration_s = 0.5;
+  WobbleSpec wobble;  ///< root mean squares as if it lasted for ever at the strength of its middle
+};
+
 struct OrbitSpec {
   Eigen::Vector2d azimuth_deg{-60.0, 60.0};
   Eigen::Vector2d elevation_deg{10.0, 60.0};
@@ -95,6 +104,7 @@ struct PathSpec {
   double lead_in_s = 0.0;                            ///< sideways motion before the walk
   double lead_in_m = 0.0;                            ///< its length
   WobbleSpec tremor;
+  std::optional<ShakeSpec> shake;
 };
 
 struct LensDistortionSpec {
@@ -142,6 +152,25 @@ struct DroppedFramesSpec {
   int burst = 2;        ///< longest gap, frames
   std::uint64_t seed = 1;
 };
+
+enum class Effect {
+  LensDistortion,
+  RollingShutter,
+  MotionBlur,
+  Vignetting,
+  AutoExposure,
+  SensorNoise,
+  Reflection,
+  Refraction,
+  MovingSubject,
+  PassingOccluder,
+  DroppedFrames,
+};
+/// What people call them, in the order of the enumeration.
+inline constexpr std::array<std::string_view, 11> kEffectNames{
+    "lens_distortion", "rolling_shutter",  "motion_blur",   "vignetting",
+    "auto_exposure",   "sensor_noise",     "reflection",    "refraction",
+    "moving_subject",  "passing_occluder", "dropped_frames"};
 
 /// What the scene names. An effect that is absent is never constructed.
 struct EffectSpecs {

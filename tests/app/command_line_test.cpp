@@ -78,14 +78,30 @@ TEST(CommandLine, EveryCommandExplainsItselfWithAnExample) {
 }
 
 TEST(CommandLine, WrongUseExitsWithTwo) {
-  for (const char* arguments :
-       {"", "fly", "track", "track a b", "track walk --out t.tum --speed 3",
-        "track walk --out t.tum --seed many", "track walk --out t.tum --seed 4294967296",
-        "sim s.toml --out ''", "import '' c", "render c --views v --out o --calib ''",
-        "demo --rate nan", "track walk --out t.tum --subject 1,2@3",
-        "track walk --out t.tum --capture c --subject middle", "render c --views v --out o --k 0",
-        "render c --views v --out o --mode huge", "export c --format gltf --out o",
-        "bench tracking", "bench tracking --out o --runs 0"}) {
+  for (const char* arguments : {"",
+                                "fly",
+                                "track",
+                                "track a b",
+                                "track walk --out t.tum --speed 3",
+                                "track walk --out t.tum --seed many",
+                                "track walk --out t.tum --seed 4294967296",
+                                "sim s.toml --out ''",
+                                "sim --out s",
+                                "sim s.toml --random 1 --out s",
+                                "sim s.toml --walk arc --out s",
+                                "sim --random 1 --walk swim --out s",
+                                "sim --random 1 --effects rolling_shutter,fog --out s",
+                                "sim --random -1 --out s",
+                                "import '' c",
+                                "render c --views v --out o --calib ''",
+                                "demo --rate nan",
+                                "track walk --out t.tum --subject 1,2@3",
+                                "track walk --out t.tum --capture c --subject middle",
+                                "render c --views v --out o --k 0",
+                                "render c --views v --out o --mode huge",
+                                "export c --format gltf --out o",
+                                "bench tracking",
+                                "bench tracking --out o --runs 0"}) {
     const Outcome outcome = lumibox(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments;
     EXPECT_FALSE(outcome.err.empty()) << arguments;
@@ -102,6 +118,14 @@ TEST(CommandLine, MissingFilesAreNamed) {
   EXPECT_COMPLAINT(lumibox("import /nowhere/transforms.json /nowhere/capture"),
                    HasSubstr("/nowhere/transforms.json"));
   EXPECT_COMPLAINT(lumibox("run --config /nowhere/box.toml"), HasSubstr("/nowhere/box.toml"));
+}
+
+TEST(CommandLine, RandomSceneThatCannotBeIsRefused) {
+  EXPECT_COMPLAINT(lumibox("sim --walk orbit --random 1 --place facade --out /nowhere/seq"),
+                   HasSubstr("a facade cannot be walked around"));
+  EXPECT_COMPLAINT(
+      lumibox("sim --effects vignetting,refraction --place facade --random 1 --out /nowhere/seq"),
+      HasSubstr("refraction"));
 }
 
 TEST(CommandLine, BadSettingsAreNamed) {

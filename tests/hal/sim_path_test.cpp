@@ -75,6 +75,26 @@ TEST(SimPath, TremorHasItsSizeAndFollowsItsSeed) {
   EXPECT_NE(wobble.at(1.0).translation, Wobble(other).at(1.0).translation);
 }
 
+TEST(SimPath, ShakeIsViolentWhileItLastsAndLeavesTheWalkAlone) {
+  PathSpec spec = serpentine();
+  const HandPath steady(spec, 20.0);
+  spec.shake = ShakeSpec{
+      10.0, 0.5, {.position_mm = 10.0, .rotation_deg = 5.0, .min_hz = 3.0, .max_hz = 6.0}};
+  const HandPath shaken(spec, 20.0);
+  double most_deg = 0.0;
+  for (double t = 0.0; t < 20.0; t += 0.01) {
+    const geometry::Pose apart =
+        steady.world_from_camera(t).inverse() * shaken.world_from_camera(t);
+    const double turned_deg = geometry::log_so3(apart.rotation).norm() * 180.0 / std::numbers::pi;
+    if (t < 10.0 || t > 10.5) {
+      EXPECT_LT(apart.translation.norm() + turned_deg, 1e-9) << t;
+    }
+    most_deg = std::max(most_deg, turned_deg);
+  }
+  // Three axes of 5 degrees root mean square, of which half a second shows a part.
+  EXPECT_GT(most_deg, 4.0);
+}
+
 TEST(SimPath, BeginsWithAStepSideways) {
   const HandPath path(serpentine(), 21.5);
   const geometry::Pose first = path.world_from_camera(0.1);
