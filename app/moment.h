@@ -16,7 +16,7 @@ namespace lumibox::app {
 /// The tracker's map as it is now. While `revision` stays the same, nothing in it has moved.
 struct MapNow {
   std::uint64_t revision = 0;
-  std::function<std::optional<geometry::Pose>(tracking::KeyframeId)> world_from_keyframe;
+  std::function<std::optional<geometry::Similarity>(tracking::KeyframeId)> world_from_keyframe;
   std::function<std::vector<Eigen::Vector3d>()> points;  ///< the reliable ones, in world
 };
 

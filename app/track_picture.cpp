@@ -66,9 +66,9 @@ bench::TrackPlot begin_plot(const tracking::Tracker& tracker, const hal::Sequenc
     plot.points.push_back(point.position);
   }
   for (tracking::KeyframeId id = 0;; ++id) {
-    const auto pose = tracker.world_from_keyframe(id);
-    if (!pose) break;
-    plot.keyframes.push_back(*pose);
+    const auto keyframe = tracker.world_from_keyframe(id);
+    if (!keyframe) break;
+    plot.keyframes.push_back(keyframe->rigid);
   }
   return plot;
 }

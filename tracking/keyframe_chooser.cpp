@@ -47,12 +47,14 @@ void KeyframeChooser::note(const MapView& map, const Localisation& found) {
 
 bool KeyframeChooser::is_wanted(const MapView& map, const Anchor& anchor,
                                 const Localisation& found) const {
-  const double baseline = anchor.keyframe_from_camera.translation.norm() / median_depth(found);
+  const MapView::Keyframe& nearest = map.keyframes[static_cast<std::size_t>(anchor.keyframe)];
+  const double baseline =
+      nearest.scale * anchor.keyframe_from_camera.translation.norm() / median_depth(found);
   const bool parallax =
       baseline > std::tan(options_.keyframe_parallax_deg * std::numbers::pi / 180.0);
-  const int known = map.keyframes[static_cast<std::size_t>(anchor.keyframe)].points;
-  const bool refresh = found.inliers < kRefreshShare * std::min(known, options_.max_measurements) &&
-                       baseline > kMinRefreshBaseline;
+  const bool refresh =
+      found.inliers < kRefreshShare * std::min(nearest.points, options_.max_measurements) &&
+      baseline > kMinRefreshBaseline;
   return parallax || refresh;
 }
 

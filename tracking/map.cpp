@@ -53,6 +53,47 @@ void Map::remove_point(PointId id) {
   points_.erase(id);
 }
 
+void Map::merge_points(PointId kept, PointId other) {
+  const Point from = point(other);
+  remove_point(other);
+  for (const Sighting& s : from.sightings) add_sighting(kept, s);
+  point(kept).searched += from.searched;
+  point(kept).found += from.found;
+}
+
+void Map::cull_keyframe(KeyframeId id, KeyframeId tie) {
+  const std::vector<PointId> seen = keyframe(id).points;
+  for (const PointId p : seen) {
+    remove_sighting(p, id);
+    if (point(p).sightings.size() < 2) remove_point(p);
+  }
+  const geometry::Similarity tie_from_id =
+      world_from_keyframe(tie).inverse() * world_from_keyframe(id);
+  for (Keyframe& k : keyframes_) {
+    if (k.tied_to != id) continue;
+    k.tied_to = tie;
+    k.tied_from_this = tie_from_id * k.tied_from_this;
+  }
+  keyframe(id).tied_to = tie;
+  keyframe(id).tied_from_this = tie_from_id;
+  keyframe(id).pyramid.reset();
+}
+
+void Map::move_keyframe(KeyframeId id, const geometry::Similarity& world_from_keyframe) {
+  Keyframe& k = keyframe(id);
+  const double growth = world_from_keyframe.scale / k.scale;
+  k.world_from_camera = world_from_keyframe.rigid;
+  k.scale = world_from_keyframe.scale;
+  k.readout_twist.head<3>() *= growth;
+  k.median_depth *= growth;
+}
+
+geometry::Similarity Map::world_from_keyframe(KeyframeId id) const {
+  const Keyframe& k = keyframe(id);
+  if (k.culled()) return world_from_keyframe(k.tied_to) * k.tied_from_this;
+  return {k.scale, k.world_from_camera};
+}
+
 void Map::update_depths() {
   for (Keyframe& k : keyframes_) {
     const geometry::Pose camera_from_world = k.world_from_camera.inverse();
@@ -69,6 +110,7 @@ void Map::scale(double factor) {
   for (Keyframe& k : keyframes_) {
     k.world_from_camera.translation *= factor;
     k.readout_twist.head<3>() *= factor;
+    k.tied_from_this.rigid.translation *= factor;
   }
   for (auto& [id, p] : points_) p.position *= factor;
   update_depths();
@@ -78,8 +120,10 @@ MapView Map::view_without_points() const {
   MapView view;
   view.keyframes.reserve(keyframes_.size());
   for (const Keyframe& k : keyframes_) {
-    view.keyframes.push_back({k.world_from_camera, k.world_from_camera.inverse(), k.pyramid,
-                              k.median_depth, static_cast<int>(k.points.size())});
+    const geometry::Similarity place =
+        world_from_keyframe(static_cast<KeyframeId>(view.keyframes.size()));
+    view.keyframes.push_back({place.rigid, place.rigid.inverse(), k.pyramid, k.median_depth,
+                              static_cast<int>(k.points.size()), place.scale});
   }
   return view;
 }
@@ -96,23 +140,6 @@ MapView Map::view_of(const std::vector<PointId>& points) const {
   MapView view = view_without_points();
   for (const PointId id : points) append_point(view, id, point(id));
   return view;
-}
-
-std::vector<KeyframeId> covisible_keyframes(const Map& map, KeyframeId id, int count) {
-  std::vector<int> shared(map.keyframes().size(), 0);
-  for (const PointId point : map.keyframe(id).points) {
-    for (const Sighting& s : map.point(point).sightings)
-      ++shared[static_cast<std::size_t>(s.keyframe)];
-  }
-  std::vector<KeyframeId> order;
-  for (KeyframeId k = 0; k < static_cast<KeyframeId>(shared.size()); ++k) {
-    if (k != id && shared[static_cast<std::size_t>(k)] > 0) order.push_back(k);
-  }
-  std::stable_sort(order.begin(), order.end(), [&](KeyframeId a, KeyframeId b) {
-    return shared[static_cast<std::size_t>(a)] > shared[static_cast<std::size_t>(b)];
-  });
-  if (order.size() > static_cast<std::size_t>(count)) order.resize(static_cast<std::size_t>(count));
-  return order;
 }
 
 }  // namespace lumibox::tracking

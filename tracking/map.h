@@ -27,7 +27,12 @@ class Map {
     std::shared_ptr<const Pyramid> pyramid;
     std::vector<PointId> points;  ///< that it sees, ascending
     double median_depth = 1.0;
+    double scale = 1.0;  ///< see MapView::Keyframe
 
+    KeyframeId tied_to = -1;                   ///< of a culled keyframe: another, not culled
+    geometry::Similarity tied_from_this = {};  ///< stays, wherever the other moves
+
+    bool culled() const { return tied_to >= 0; }
     geometry::FramePose frame_pose() const { return {world_from_camera.inverse(), readout_twist}; }
   };
 
@@ -39,6 +44,18 @@ class Map {
   void remove_sighting(PointId point, KeyframeId keyframe);
   void remove_point(PointId point);
 
+  /// One point for two that are the same: `kept` gets the sightings of `other` in keyframes that do
+  /// not see it themselves, and `other` is removed.
+  void merge_points(PointId kept, PointId other);
+
+  /// Takes a keyframe and its sightings out of the map, and points that are left with fewer than
+  /// two. From now on it moves with `tie`, another that is not culled; so do those that were tied
+  /// to it.
+  void cull_keyframe(KeyframeId id, KeyframeId tie);
+
+  /// Moves a keyframe to where `corrected` says and lengths around it with it.
+  void move_keyframe(KeyframeId id, const geometry::Similarity& world_from_keyframe);
+
   bool has_point(PointId id) const { return points_.contains(id); }
   Point& point(PointId id) { return points_.at(id); }
   const Point& point(PointId id) const { return points_.at(id); }
@@ -48,6 +65,9 @@ class Map {
   const std::vector<Keyframe>& keyframes() const { return keyframes_; }
   Keyframe& keyframe(KeyframeId id) { return keyframes_[static_cast<std::size_t>(id)]; }
   const Keyframe& keyframe(KeyframeId id) const { return keyframes_[static_cast<std::size_t>(id)]; }
+
+  /// Where a keyframe is, culled ones included; see MapView::Keyframe.
+  geometry::Similarity world_from_keyframe(KeyframeId id) const;
 
   /// Brings median_depth of every keyframe up to date.
   void update_depths();
@@ -68,8 +88,5 @@ class Map {
   std::map<PointId, Point> points_;
   PointId next_point_ = 0;
 };
-
-/// Keyframes that share most points with `id`, most first, at most `count`; without `id` itself.
-std::vector<KeyframeId> covisible_keyframes(const Map& map, KeyframeId id, int count);
 
 }  // namespace lumibox::tracking

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tracking/bundle_adjustment.h"
+#include "tracking/covisibility.h"
 
 namespace lumibox::tracking {
 namespace {

@@ -28,7 +28,15 @@ struct MapView {
     geometry::Pose camera_from_world;
     std::shared_ptr<const Pyramid> pyramid;
     double median_depth = 1.0;
-    int points = 0;  ///< map points it sees
+    int points = 0;      ///< map points it sees
+    double scale = 1.0;  ///< by which closing loops has multiplied the lengths around it
+
+    /// Taken out of the map: has no picture and no points, but goes on moving with its neighbour.
+    bool culled() const { return pyramid == nullptr; }
+
+    /// For what hangs on the keyframe: lengths in its frame are in the unit of the time when it was
+    /// added.
+    geometry::Similarity world_from_keyframe() const { return {scale, world_from_camera}; }
   };
   struct Point {
     PointId id = -1;
@@ -37,7 +45,8 @@ struct MapView {
     std::uint32_t sightings = 0;
   };
 
-  std::uint64_t revision = 0;       ///< differs between any two published copies
+  std::uint64_t revision = 0;  ///< differs between any two published copies
+  int loops_closed = 0;
   std::vector<Keyframe> keyframes;  ///< by KeyframeId
   std::vector<Point> points;        ///< by ascending id
   std::vector<Sighting> sightings;  ///< of all points, one after the other

@@ -1,8 +1,10 @@
 #include "tracking/mapper.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "config/log.h"
+#include "tracking/loop_closing.h"
 #include "tracking/map_adjustment.h"
 #include "tracking/point_creation.h"
 
@@ -11,11 +13,14 @@ namespace {
 
 constexpr int kTrialFrames = 20;  // searches before a point's record counts
 constexpr double kMinFoundShare = 0.25;
+constexpr std::size_t kMinTies = 3;      // keyframes that must agree on a loop
+constexpr std::size_t kMinLastTies = 2;  // where no others follow
+constexpr KeyframeId kLastKeyframes = 3;
 
 }  // namespace
 
 Mapper::Mapper(const geometry::Camera& camera, const config::Tracking& options, Mapping mapping)
-    : camera_(camera), options_(options), mapping_(mapping) {
+    : camera_(camera), options_(options), mapping_(mapping), loops_(camera, options) {
   if (mapping_ == Mapping::Threaded) thread_ = std::thread([this] { run(); });
 }
 
@@ -75,6 +80,11 @@ void Mapper::finish() {
   }
   if (!view()) return;
   attempt([this] {
+    // The last keyframes may have come back to where others began, and none come to confirm it.
+    const auto newest = static_cast<KeyframeId>(map_.keyframes().size()) - 1;
+    for (KeyframeId id = newest; id > std::max(newest - kLastKeyframes, 0); --id) {
+      if (close_loop_at(id, kMinLastTies)) break;
+    }
     // Twice: the second pass no longer has the outliers that the first removed.
     adjust_globally(camera_, map_);
     adjust_globally(camera_, map_);
@@ -118,8 +128,7 @@ void Mapper::attempt(const std::function<void()>& work) {
 void Mapper::integrate(const KeyframeRequest& request) {
   weigh(request.evidence);
   const KeyframeId id = map_.add_keyframe(
-      {(map_.keyframe(request.reference).world_from_camera * request.reference_from_camera)
-           .inverse(),
+      {(map_.world_from_keyframe(request.reference) * request.reference_from_camera).inverse(),
        request.readout_twist},
       request.pyramid);
   for (auto [point, sighting] : request.sightings) {
@@ -130,7 +139,19 @@ void Mapper::integrate(const KeyframeRequest& request) {
   map_.update_depths();
   create_points(camera_, options_, map_, id);
   adjust_locally(camera_, map_, id, options_.local_keyframes);
+  if (close_loop_at(id, kMinTies)) adjust_globally(camera_, map_);
   publish();
+}
+
+/// Looks whether keyframe `id` shows a place that another part of the map shows too.
+bool Mapper::close_loop_at(KeyframeId id, std::size_t min_ties) {
+  bool met = has_met_itself(map_, id);
+  if (!met) {
+    const auto loop = loops_.find(map_, id, min_ties);
+    met = loop && close_loop(map_, *loop);
+  }
+  if (met) ++loops_closed_;
+  return met;
 }
 
 void Mapper::weigh(const std::vector<PointEvidence>& evidence) {
@@ -146,7 +167,8 @@ void Mapper::weigh(const std::vector<PointEvidence>& evidence) {
 }
 
 void Mapper::publish() {
-  auto view = std::make_shared<const MapView>(map_.view(++revision_));
+  auto view = std::make_shared<MapView>(map_.view(++revision_));
+  view->loops_closed = loops_closed_;
   const std::lock_guard lock(mutex_);
   view_ = std::move(view);
 }

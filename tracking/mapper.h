@@ -14,6 +14,7 @@
 #include "config/config.h"
 #include "geometry/camera.h"
 #include "tracking/initialiser.h"
+#include "tracking/loop_detector.h"
 #include "tracking/map.h"
 #include "tracking/map_view.h"
 #include "tracking/tracker.h"
@@ -29,7 +30,7 @@ struct PointEvidence {
 /// A frame that the tracker wants to become a keyframe.
 struct KeyframeRequest {
   KeyframeId reference = -1;  ///< keyframe its pose is relative to, so that corrections move it
-  geometry::Pose reference_from_camera;
+  geometry::Pose reference_from_camera;  ///< see TrackedFrame::keyframe_from_camera
   geometry::Vector6d readout_twist = geometry::Vector6d::Zero();  ///< see geometry::FramePose
   std::shared_ptr<const Pyramid> pyramid;
   std::vector<std::pair<PointId, Sighting>> sightings;  ///< their keyframe is set by the mapper
@@ -68,6 +69,7 @@ class Mapper {
   void run();
   void attempt(const std::function<void()>& work);
   void integrate(const KeyframeRequest& request);
+  bool close_loop_at(KeyframeId id, std::size_t min_ties);
   void weigh(const std::vector<PointEvidence>& evidence);
   void publish();
 
@@ -76,6 +78,8 @@ class Mapper {
   const Mapping mapping_;
 
   Map map_;  // touched only by whoever runs the mapper
+  LoopDetector loops_;
+  int loops_closed_ = 0;
   std::uint64_t revision_ = 0;
 
   mutable std::mutex mutex_;  // guards what follows

@@ -8,6 +8,7 @@
 
 #include "geometry/triangulation.h"
 #include "tracking/corners.h"
+#include "tracking/covisibility.h"
 #include "tracking/frame_search.h"
 #include "tracking/patch.h"
 #include "tracking/point_matcher.h"

@@ -1,8 +1,12 @@
 #include "tracking/relocalisation.h"
 
+#include <limits>
+
 namespace lumibox::tracking {
 namespace {
 
+constexpr int kMinInliers = 40;          // points found, as for a good pose
+constexpr double kMinFoundShare = 0.35;  // of the points that should be visible
 constexpr double kSpeed = 1.5;      // depths per second: more than a hand or a walk around makes
 constexpr double kReach = 0.3;      // depths, at once: what tracking was off by when it was lost
 constexpr double kAlike = 0.6;      // of the inliers of the best place
@@ -38,6 +42,14 @@ std::optional<std::size_t> choose_place(std::span<const PossiblePlace> places,
     if (rival) return std::nullopt;
   }
   return best;
+}
+
+std::optional<std::size_t> choose_place(std::span<const PossiblePlace> places, double depth) {
+  return choose_place(places, {{}, depth, std::numeric_limits<double>::infinity()});
+}
+
+bool is_verified(const Localisation& found) {
+  return found.inliers >= kMinInliers && found.found_share() >= kMinFoundShare;
 }
 
 }  // namespace lumibox::tracking

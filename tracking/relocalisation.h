@@ -5,6 +5,7 @@
 #include <span>
 
 #include "geometry/pose.h"
+#include "tracking/map_tracking.h"
 
 namespace lumibox::tracking {
 
@@ -27,5 +28,11 @@ struct LastSeen {
 /// staying lost for now is better than a wrong pose. None if no place is to be believed.
 std::optional<std::size_t> choose_place(std::span<const PossiblePlace> places,
                                         const LastSeen& last);
+
+/// The same for a camera of which nothing is known besides the picture.
+std::optional<std::size_t> choose_place(std::span<const PossiblePlace> places, double depth);
+
+/// Whether a frame located from a guess has found so much of the map that the guess was right.
+bool is_verified(const Localisation& found);
 
 }  // namespace lumibox::tracking

@@ -40,7 +40,8 @@ struct TrackedFrame {
   /// World as fixed at initialisation: median depth 1. None unless Good or Poor.
   std::optional<geometry::Pose> world_from_camera;
   /// A map keyframe and the pose relative to it: when the map is corrected, the corrected pose is
-  /// Tracker::world_from_keyframe(keyframe) * keyframe_from_camera.
+  /// Tracker::world_from_keyframe(keyframe) * keyframe_from_camera. Lengths are in the keyframe's
+  /// own unit, that of the world when it was added: closing a loop corrects drift of scale, too.
   KeyframeId keyframe = -1;
   geometry::Pose keyframe_from_camera;
   int measurements = 0;  ///< map points found

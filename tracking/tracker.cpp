@@ -1,5 +1,6 @@
 #include "tracking/tracker.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "tracking/initialiser.h"
@@ -14,11 +15,10 @@
 namespace lumibox::tracking {
 namespace {
 
-constexpr int kMinInliers = 20;          // fewer do not hold six degrees of freedom
-constexpr int kMinGoodInliers = 40;      // fewer are not good enough to record with
-constexpr double kVerifiedShare = 0.35;  // of points found again after relocalisation
-constexpr double kMinContrast = 6.0;     // grey levels; a dark or covered lens shows less
-constexpr int kTurnTries = 15;           // frames from one try to relocalise to the next
+constexpr int kMinInliers = 20;       // fewer do not hold six degrees of freedom
+constexpr int kMinGoodInliers = 40;   // fewer are not good enough to record with
+constexpr double kMinContrast = 6.0;  // grey levels; a dark or covered lens shows less
+constexpr int kTurnTries = 15;        // frames from one try to relocalise to the next
 
 }  // namespace
 
@@ -62,11 +62,11 @@ class Tracker::Impl {
     return result;
   }
 
-  std::optional<geometry::Pose> world_from_keyframe(KeyframeId id) const {
+  std::optional<geometry::Similarity> world_from_keyframe(KeyframeId id) const {
     const auto map = mapper_.view();
     if (!map || id < 0 || static_cast<std::size_t>(id) >= map->keyframes.size())
       return std::nullopt;
-    return map->keyframes[static_cast<std::size_t>(id)].world_from_camera;
+    return map->keyframes[static_cast<std::size_t>(id)].world_from_keyframe();
   }
 
   std::uint64_t map_revision() const {
@@ -89,7 +89,10 @@ class Tracker::Impl {
   TrackerStatistics statistics() const {
     TrackerStatistics s;
     if (const auto map = mapper_.view()) {
-      s.keyframes = static_cast<int>(map->keyframes.size());
+      s.keyframes =
+          static_cast<int>(std::count_if(map->keyframes.begin(), map->keyframes.end(),
+                                         [](const MapView::Keyframe& k) { return !k.culled(); }));
+      s.loops_closed = map->loops_closed;
       s.points = static_cast<int>(map->points.size());
     }
     s.relocalisations = relocalisations_;
@@ -130,7 +133,7 @@ class Tracker::Impl {
     auto newest = mapper_.view();
     if (newest->revision == map_->revision) return;
     map_ = std::move(newest);
-    camera_from_world_ = (keyframe(anchor_).world_from_camera * anchor_from_camera_).inverse();
+    camera_from_world_ = (keyframe(anchor_).world_from_keyframe() * anchor_from_camera_).inverse();
   }
 
   std::optional<Localisation> localise_from_motion(const Pyramid& frame) {
@@ -155,8 +158,7 @@ class Tracker::Impl {
     std::vector<PossiblePlace> places;
     for (const geometry::Pose& pose : relocaliser_.find(*map_, frame, motion_.picture())) {
       auto here = localise(camera_, options_, *map_, frame, pose);
-      if (!here || here->inliers < kMinGoodInliers || here->found_share() < kVerifiedShare)
-        continue;
+      if (!here || !is_verified(*here)) continue;
       places.push_back({here->pose.camera_from_world, here->inliers});
       found.push_back(std::move(*here));
     }
@@ -223,7 +225,7 @@ class Tracker::Impl {
     const geometry::Pose held(*turned, -(*turned * center));
     motion_.moved(camera_from_world_, held);
     camera_from_world_ = held;
-    anchor_from_camera_ = keyframe(anchor_).camera_from_world * held.inverse();
+    hang_on(anchor_);
     bad_frames_ = 0;
     report_pose(TrackingState::Poor, 0, result);
     result.reason = TrackingReason::TurningOnly;
@@ -243,17 +245,25 @@ class Tracker::Impl {
   void choose_anchor() {
     const geometry::Pose world_from_camera = camera_from_world_.inverse();
     const Eigen::Vector3d forward = world_from_camera.rotation * Eigen::Vector3d::UnitZ();
+    KeyframeId nearest = anchor_;
     double best = std::numeric_limits<double>::infinity();
     for (KeyframeId id = 0; id < static_cast<KeyframeId>(map_->keyframes.size()); ++id) {
+      if (keyframe(id).culled()) continue;
       const geometry::Pose& pose = keyframe(id).world_from_camera;
       const double facing = forward.dot(pose.rotation * Eigen::Vector3d::UnitZ());
       const double distance = (pose.translation - world_from_camera.translation).norm();
       if (facing > 0.5 && distance < best) {
         best = distance;
-        anchor_ = id;
+        nearest = id;
       }
     }
-    anchor_from_camera_ = keyframe(anchor_).camera_from_world * world_from_camera;
+    hang_on(nearest);
+  }
+
+  void hang_on(KeyframeId id) {
+    anchor_ = id;
+    anchor_from_camera_ =
+        keyframe(id).world_from_keyframe().inverse() * camera_from_world_.inverse();
   }
 
   void show(const Localisation& found) {
@@ -271,8 +281,8 @@ class Tracker::Impl {
   TurnFollower turn_;
   KeyframeChooser chooser_;
 
-  std::shared_ptr<const MapView> map_;  // the copy in use; null before initialisation
-  geometry::Pose camera_from_world_;    // of the last frame with a pose
+  std::shared_ptr<const MapView> map_;        // the copy in use; null before initialisation
+  geometry::Pose camera_from_world_;          // of the last frame with a pose
   geometry::FramePose predicted_;             // of the present frame
   std::shared_ptr<const Pyramid> last_good_;  // the last frame, if its pose was good
   int frames_turned_ = 0;                     // since the map last showed
@@ -294,7 +304,7 @@ Tracker::~Tracker() = default;
 TrackedFrame Tracker::track(const hal::Image& gray, std::int64_t index, std::int64_t timestamp_ns) {
   return impl_->track(gray, index, timestamp_ns);
 }
-std::optional<geometry::Pose> Tracker::world_from_keyframe(KeyframeId id) const {
+std::optional<geometry::Similarity> Tracker::world_from_keyframe(KeyframeId id) const {
   return impl_->world_from_keyframe(id);
 }
 std::uint64_t Tracker::map_revision() const {

@@ -47,9 +47,10 @@ class Tracker {
   /// Tracks one frame of the camera's size. Frames come in order of time.
   TrackedFrame track(const hal::Image& gray, std::int64_t index, std::int64_t timestamp_ns);
 
-  /// Current estimate of a keyframe's pose; none if it never existed. A culled keyframe keeps
-  /// answering through the keyframe it was tied to.
-  std::optional<geometry::Pose> world_from_keyframe(KeyframeId id) const;
+  /// Current estimate of a keyframe's place; none if it never existed. Its scale is what closing
+  /// loops has multiplied lengths around it by, 1 until then. A culled keyframe keeps answering
+  /// through the keyframe it was tied to.
+  std::optional<geometry::Similarity> world_from_keyframe(KeyframeId id) const;
 
   /// Counts map corrections: while it stays the same, no keyframe has moved.
   std::uint64_t map_revision() const;

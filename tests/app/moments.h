@@ -25,9 +25,10 @@ class World {
 
   app::MapNow map() const {
     return {revision_,
-            [this](tracking::KeyframeId id) -> std::optional<geometry::Pose> {
+            [this](tracking::KeyframeId id) -> std::optional<geometry::Similarity> {
               const auto it = keyframes_.find(id);
-              return it == keyframes_.end() ? std::nullopt : std::optional(it->second);
+              if (it == keyframes_.end()) return std::nullopt;
+              return geometry::Similarity{1.0, it->second};
             },
             [] {
               return std::vector<Eigen::Vector3d>{{1.0, 2.0, 3.0}};

@@ -31,7 +31,8 @@ TEST(Corners, CoverThePictureAndKeepTheLimit) {
 }
 
 TEST(Corners, WeakOnesAreTakenWhereThereAreNoStrongOnes) {
-  // A floor whose grain is some ten grey levels from dark to bright, and a label in the middle of it.
+  // A floor whose grain is some ten grey levels from dark to bright, and a label in the middle of
+  // it.
   hal::Image image(320, 240, 1);
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "tracking/covisibility.h"
+
 namespace lumibox::tracking {
 namespace {
 

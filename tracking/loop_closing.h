@@ -1,0 +1,24 @@
+#pragma once
+
+#include "geometry/camera.h"
+#include "tracking/loop_detector.h"
+#include "tracking/map.h"
+
+namespace lumibox::tracking {
+
+/// Brings together the two parts of the map that a loop found to be the same place: spreads the
+/// drift over the keyframes on the way by a pose graph of similarities (Strasdat, Montiel and
+/// Davison, RSS 2010), moves each point with the keyframe that saw it first, and makes one point of
+/// two that are the same. Keyframe 0 stays. What is left is for an adjustment of the whole map.
+/// False, with nothing changed, if the drift could not be spread.
+bool close_loop(Map& map, const Loop& loop);
+
+/// Makes one point of two that keyframe `id` sees in the same place at the same depth; the older
+/// stays. Returns how many points went.
+int merge_duplicates(Map& map, KeyframeId id);
+
+/// Whether keyframe `id` has just tied together parts of the map that were far apart along all that
+/// was measured, and near in truth: an orbit that came back to its own points.
+bool has_met_itself(const Map& map, KeyframeId id);
+
+}  // namespace lumibox::tracking
