@@ -27,11 +27,13 @@ struct BundleProblem {
   std::vector<Observation> observations;
 };
 
-/// Minimises the Huber cost of all reprojection errors over the views not fixed and all points
+/// Minimises the Cauchy cost of all reprojection errors over the views not fixed and all points
 /// (Triggs et al., "Bundle adjustment - a modern synthesis", 2000), single threaded and
-/// deterministic. Views should be fixed so that the gauge is. The scale of the world does not
-/// matter. An observation of a point that starts behind its view takes no part; one that ends there
-/// gets an infinite error. Returns false, with nothing changed, if the solver failed.
+/// deterministic. Points that move or are reflections fit no place: that cost lets go of them,
+/// where one that grows linearly would let each pull for ever. Views should be fixed so that the
+/// gauge is. The scale of the world does not matter. An observation of a point that starts behind
+/// its view takes no part; one that ends there gets an infinite error. Returns false, with nothing
+/// changed, if the solver failed.
 bool adjust(const geometry::Camera& camera, BundleProblem& problem, int max_iterations);
 
 }  // namespace lumibox::tracking
