@@ -5,8 +5,6 @@
 #include <numbers>
 #include <utility>
 
-#include "geometry/robust.h"
-
 namespace lumibox::tracking {
 namespace {
 
@@ -16,32 +14,24 @@ constexpr double kRefreshShare = 0.5;          // of the nearest keyframe's poin
 constexpr double kMinRefreshBaseline = 0.012;  // of the depth: without a baseline, no new points
 constexpr int kIterations = 10;
 
-double median_depth(const Localisation& found) {
-  std::vector<double> depths;
-  for (const Measurement& m : found.measurements) {
-    if (m.inlier) depths.push_back((found.pose.camera_from_world * m.position).z());
-  }
-  return geometry::median(std::move(depths));
-}
-
 }  // namespace
 
 KeyframeChooser::KeyframeChooser(const geometry::Camera& camera, const config::Tracking& options)
     : camera_(camera), options_(options) {}
 
 void KeyframeChooser::note(const MapView& map, const Localisation& found) {
-  std::vector<std::uint32_t> inliers;
+  inliers_.clear();
   for (const Measurement& m : found.measurements) {
-    if (m.inlier) inliers.push_back(m.point);
+    if (m.inlier) inliers_.push_back(m.point);
   }
-  std::sort(inliers.begin(), inliers.end());
+  std::sort(inliers_.begin(), inliers_.end());
   // A camera that stands still asks for no keyframe, for hours perhaps: the older half is dropped.
   if (evidence_.size() > kMaxEvidence) {
     evidence_.erase(evidence_.begin(), evidence_.begin() + kMaxEvidence / 2);
   }
   for (const std::uint32_t point : found.attempted) {
     evidence_.push_back(
-        {map.points[point].id, std::binary_search(inliers.begin(), inliers.end(), point)});
+        {map.points[point].id, std::binary_search(inliers_.begin(), inliers_.end(), point)});
   }
 }
 
@@ -49,7 +39,7 @@ bool KeyframeChooser::is_wanted(const MapView& map, const Anchor& anchor,
                                 const Localisation& found) const {
   const MapView::Keyframe& nearest = map.keyframes[static_cast<std::size_t>(anchor.keyframe)];
   const double baseline =
-      nearest.scale * anchor.keyframe_from_camera.translation.norm() / median_depth(found);
+      nearest.scale * anchor.keyframe_from_camera.translation.norm() / found.median_depth;
   const bool parallax =
       baseline > std::tan(options_.keyframe_parallax_deg * std::numbers::pi / 180.0);
   const bool refresh =

@@ -53,6 +53,7 @@ class KeyframeChooser {
   config::Tracking options_;
   int frames_since_keyframe_ = 0;
   std::vector<PointEvidence> evidence_;
+  std::vector<std::uint32_t> inliers_;  ///< of one frame, by index
   std::optional<Pending> pending_;
 };
 

@@ -153,8 +153,8 @@ std::optional<LoopDetector::Place> LoopDetector::locate(const Map& map, const Ma
       pose_from_matches(camera_, view, corners, index_.match(view, then, corners), kSeed);
   if (!pose) return std::nullopt;
   MapView part = part_around(map, then, id);
-  const auto found = localise(camera_, options_, part, *map.keyframe(id).pyramid,
-                              {*pose, map.keyframe(id).readout_twist});
+  const Localisation* found =
+      localiser_.localise(part, *map.keyframe(id).pyramid, {*pose, map.keyframe(id).readout_twist});
   if (!found || !is_verified(*found)) return std::nullopt;
   const auto scale = scale_between(map, id, *found);
   if (!scale) return std::nullopt;
@@ -163,7 +163,7 @@ std::optional<LoopDetector::Place> LoopDetector::locate(const Map& map, const Ma
 }
 
 /// The tie of `id` and those of the keyframes around it that say the same.
-std::vector<Loop::Tie> LoopDetector::ties(const Map& map, KeyframeId id, const Place& place) const {
+std::vector<Loop::Tie> LoopDetector::ties(const Map& map, KeyframeId id, const Place& place) {
   std::vector<Loop::Tie> agreed{place.tie};
   const geometry::Similarity corrected =
       place.tie.world_from_keyframe *
@@ -173,8 +173,8 @@ std::vector<Loop::Tie> LoopDetector::ties(const Map& map, KeyframeId id, const P
     const geometry::Pose expected = corrected * keyframe.world_from_camera;
     geometry::Vector6d twist = keyframe.readout_twist;
     twist.head<3>() *= corrected.scale;
-    const auto found =
-        localise(camera_, options_, place.part, *keyframe.pyramid, {expected.inverse(), twist});
+    const Localisation* found =
+        localiser_.localise(place.part, *keyframe.pyramid, {expected.inverse(), twist});
     if (!found || !is_verified(*found)) continue;
     const geometry::Pose off = found->pose.camera_from_world * expected;
     if (off.translation.norm() > kAgreeLength * corrected.scale * keyframe.median_depth ||

@@ -10,6 +10,7 @@
 #include "tracking/covisibility.h"
 #include "tracking/keyframe_index.h"
 #include "tracking/map.h"
+#include "tracking/map_tracking.h"
 
 namespace lumibox::tracking {
 
@@ -40,12 +41,12 @@ bool is_plausible(const Drift& drift, const Way& way);
 
 /// Finds places that are in the map twice: keyframes far apart in the map that look alike,
 /// descriptor matches to the points of the one in the other, P3P, then the search that tracks
-/// frames (localise), from several keyframes; accepted if they agree, tracking can have drifted so
+/// frames (Localiser), from several keyframes; accepted if they agree, tracking can have drifted so
 /// far on the way between, and no other place explains the picture nearly as well.
 class LoopDetector {
  public:
   LoopDetector(const geometry::Camera& camera, const config::Tracking& options)
-      : camera_(camera), options_(options) {}
+      : camera_(camera), localiser_(camera, options) {}
 
   /// The older place that keyframe `id` shows; none if there is none or too few of the keyframes
   /// around it (fewer than `min_ties`, itself included) see it as well.
@@ -55,10 +56,10 @@ class LoopDetector {
   struct Place;
   std::vector<KeyframeId> candidates(const Map& map, KeyframeId id) const;
   std::optional<Place> locate(const Map& map, const MapView& view, KeyframeId id, KeyframeId then);
-  std::vector<Loop::Tie> ties(const Map& map, KeyframeId id, const Place& place) const;
+  std::vector<Loop::Tie> ties(const Map& map, KeyframeId id, const Place& place);
 
   geometry::Camera camera_;
-  config::Tracking options_;
+  Localiser localiser_;
   KeyframeIndex index_;
 };
 

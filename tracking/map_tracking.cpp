@@ -1,43 +1,62 @@
 #include "tracking/map_tracking.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace lumibox::tracking {
 namespace {
 
-constexpr int kCoarsePoints = 80;
-constexpr int kMinCoarse = 12;         // inliers a coarse pose must have
-constexpr double kCoarseRadius = 5.0;  // pixels of the coarse level; 20 to 40 pixels of the picture
-constexpr double kWideRadius = 11.0;   // second try
 constexpr int kIterations = 10;
-
-/// Pose from a coarse pass; none if it found too few points that agree.
-std::optional<geometry::FramePose> coarse_pose(const geometry::Camera& camera, const MapView& map,
-                                               const Pyramid& frame,
-                                               const geometry::FramePose& predicted,
-                                               double radius) {
-  const int coarse_level = std::min(2, frame.levels() - 1);
-  SearchResult found =
-      search_map(camera, map, frame, predicted, {coarse_level, radius, kCoarsePoints});
-  const PoseEstimate estimate = estimate_pose(camera, found.measurements, predicted, kIterations);
-  if (estimate.inliers < kMinCoarse) return std::nullopt;
-  return estimate.pose;
-}
 
 }  // namespace
 
-std::optional<Localisation> localise(const geometry::Camera& camera,
-                                     const config::Tracking& options, const MapView& map,
-                                     const Pyramid& frame, const geometry::FramePose& predicted) {
-  auto coarse = coarse_pose(camera, map, frame, predicted, kCoarseRadius);
-  if (!coarse) coarse = coarse_pose(camera, map, frame, predicted, kWideRadius);
-  if (!coarse) return std::nullopt;
+Localiser::Localiser(const geometry::Camera& camera, const LocalisationPasses& passes)
+    : passes_(passes), search_(camera), estimator_(camera) {}
 
-  SearchResult found = search_map(camera, map, frame, *coarse,
-                                  {0, options.search_radius_px, options.max_measurements});
-  const PoseEstimate estimate = estimate_pose(camera, found.measurements, *coarse, kIterations);
-  return Localisation{estimate.pose, std::move(found.attempted), std::move(found.measurements),
-                      estimate.inliers};
+std::optional<geometry::FramePose> Localiser::coarse_pose(const MapView& map, const Pyramid& frame,
+                                                          const geometry::FramePose& predicted,
+                                                          double radius) {
+  const int coarse_level = std::min(2, frame.levels() - 1);
+  search_.search(map, frame, predicted, {coarse_level, radius, passes_.coarse_points}, found_);
+  const PoseEstimate estimate =
+      estimator_.estimate(found_.measurements, predicted, kIterations, passes_.freedom);
+  if (estimate.inliers < passes_.min_coarse) return std::nullopt;
+  return estimate.pose;
+}
+
+const Localisation* Localiser::localise(const MapView& map, const Pyramid& frame,
+                                        const geometry::FramePose& predicted) {
+  auto coarse = coarse_pose(map, frame, predicted, passes_.coarse_radius);
+  if (!coarse && passes_.wide_radius > passes_.coarse_radius) {
+    coarse = coarse_pose(map, frame, predicted, passes_.wide_radius);
+  }
+  if (!coarse) return nullptr;
+  search_.search(map, frame, *coarse, {0, passes_.fine_radius, passes_.fine_points}, found_);
+  // The memory goes to and fro between the two.
+  std::swap(located_.attempted, found_.attempted);
+  std::swap(located_.measurements, found_.measurements);
+  estimate(*coarse);
+  return &located_;
+}
+
+const Localisation* Localiser::with_readout(const geometry::Vector6d& twist) {
+  estimate({located_.pose.camera_from_world, twist});
+  return &located_;
+}
+
+void Localiser::estimate(const geometry::FramePose& start) {
+  const PoseEstimate estimate =
+      estimator_.estimate(located_.measurements, start, kIterations, passes_.freedom);
+  located_.pose = estimate.pose;
+  located_.inliers = estimate.inliers;
+  located_.position_sigma = estimate.position_sigma();
+  depths_.clear();
+  for (const Measurement& m : located_.measurements) {
+    if (m.inlier) depths_.push_back((estimate.pose.camera_from_world * m.position).z());
+  }
+  const auto middle = depths_.begin() + static_cast<std::ptrdiff_t>(depths_.size() / 2);
+  std::nth_element(depths_.begin(), middle, depths_.end());
+  located_.median_depth = depths_.empty() ? 0.0 : *middle;
 }
 
 }  // namespace lumibox::tracking

@@ -14,7 +14,8 @@ constexpr double kAgreement = 1.5 * std::numbers::pi / 180.0;
 }  // namespace
 
 void MotionModel::next_frame(const Pyramid& picture, std::int64_t timestamp_ns) {
-  last_ = std::exchange(current_, SmallImage(picture));
+  std::swap(last_, current_);
+  current_.assign(picture);
   interval_s_ = std::clamp(1e-9 * static_cast<double>(timestamp_ns - timestamp_ns_), kMinIntervalS,
                            kMaxIntervalS);
   timestamp_ns_ = timestamp_ns;

@@ -27,14 +27,17 @@ struct PatchTemplate {
 std::optional<PatchTemplate> make_template(const hal::Image& image, const Eigen::Vector2d& center,
                                            const Eigen::Matrix2d& source_from_target);
 
+/// Largest radius that search_square searches, pixels.
+inline constexpr double kMaxSearchRadius = 40.0;
+
 struct PatchMatch {
   Eigen::Vector2d pixel;     ///< of the patch's centre
   double correlation = 0.0;  ///< normalised, [-1, 1]
 };
 
-/// Best place for the template within `radius` pixels of `center`, at whole pixels, by normalised
-/// cross-correlation, which gain and offset of the exposure do not change. None if all places lie
-/// outside the image or have no contrast.
+/// Best place for the template within `radius` pixels of `center` (kMaxSearchRadius at most), at
+/// whole pixels, by normalised cross-correlation, which gain and offset of the exposure do not
+/// change. None if all places lie outside the image or have no contrast.
 std::optional<PatchMatch> search_square(const hal::Image& image, const PatchTemplate& patch,
                                         const Eigen::Vector2d& center, double radius);
 

@@ -40,7 +40,10 @@ std::optional<PreparedPatch> prepare(const geometry::Camera& camera, const Map::
                                      const Map::Keyframe& target) {
   const geometry::Pose target_from_source =
       target.world_from_camera.inverse() * source.world_from_camera;
-  const auto warp = affine_warp(camera, pixel, depth, target_from_source);
+  const auto ray = camera.unproject(pixel);
+  if (!ray) return std::nullopt;
+  const auto warp =
+      affine_warp(camera, Eigen::Vector3d(depth * ray->homogeneous()), target_from_source);
   if (!warp) return std::nullopt;
   const double determinant = warp->determinant();
   if (!(determinant > 1.0 / 16.0 && determinant < 16.0)) return std::nullopt;

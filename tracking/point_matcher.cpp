@@ -32,22 +32,18 @@ int choose_sighting(const MapView& map, const Eigen::Vector3d& position,
 }  // namespace
 
 std::optional<Eigen::Matrix2d> affine_warp(const geometry::Camera& camera,
-                                           const Eigen::Vector2d& pixel, double depth,
+                                           const Eigen::Vector3d& point_in_source,
                                            const geometry::Pose& target_from_source) {
-  constexpr double kStep = 4.0;  // half a patch: the finite difference spans what is compared
-  const auto image_of = [&](const Eigen::Vector2d& offset) -> std::optional<Eigen::Vector2d> {
-    const auto ray = camera.unproject(pixel + offset);
-    if (!ray) return std::nullopt;
-    return camera.project(target_from_source * Eigen::Vector3d(depth * ray->homogeneous()));
-  };
-  const auto center = image_of(Eigen::Vector2d::Zero());
-  const auto right = image_of(Eigen::Vector2d(kStep, 0.0));
-  const auto down = image_of(Eigen::Vector2d(0.0, kStep));
-  if (!center || !right || !down) return std::nullopt;
-  Eigen::Matrix2d warp;
-  warp.col(0) = (*right - *center) / kStep;
-  warp.col(1) = (*down - *center) / kStep;
-  return warp;
+  Eigen::Matrix<double, 2, 3> source_by_point;
+  Eigen::Matrix<double, 2, 3> target_by_point;
+  if (!camera.project(point_in_source, &source_by_point) ||
+      !camera.project(target_from_source * point_in_source, &target_by_point)) {
+    return std::nullopt;
+  }
+  // In the plane z = const the point moves with the first two columns only.
+  const Eigen::Matrix<double, 3, 2> plane = target_from_source.matrix3().leftCols<2>();
+  const Eigen::Matrix2d source_by_plane = source_by_point.leftCols<2>();
+  return target_by_point * plane * source_by_plane.inverse();
 }
 
 std::optional<PatchWarp> plan_warp(const geometry::Camera& camera, const MapView& map,
@@ -59,11 +55,8 @@ std::optional<PatchWarp> plan_warp(const geometry::Camera& camera, const MapView
   if (chosen < 0) return std::nullopt;
   const Sighting& sighting = sightings[static_cast<std::size_t>(chosen)];
   const auto& keyframe = map.keyframes[static_cast<std::size_t>(sighting.keyframe)];
-  const double depth = (keyframe.camera_from_world * position).z();
-  if (!(depth > 0.0)) return std::nullopt;
-
-  const auto warp =
-      affine_warp(camera, sighting.pixel, depth, camera_from_world * keyframe.world_from_camera);
+  const auto warp = affine_warp(camera, keyframe.camera_from_world * position,
+                                camera_from_world * keyframe.world_from_camera);
   if (!warp) return std::nullopt;
   const double determinant = warp->determinant();
   if (!(determinant > 1.0 / 16.0 && determinant < 16.0)) return std::nullopt;

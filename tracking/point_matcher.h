@@ -30,11 +30,12 @@ std::optional<PatchWarp> plan_warp(const geometry::Camera& camera, const MapView
                                    std::span<const Sighting> sightings,
                                    const geometry::Pose& camera_from_world, int min_level);
 
-/// Affine map from offsets around `pixel` of one keyframe to offsets in a picture taken from
-/// `target_from_source`, both on level 0, for the plane at `depth` that faces the source camera.
-/// None if a corner of the patch cannot be projected.
+/// Affine map from offsets around a point's picture in one keyframe to offsets in a picture taken
+/// from `target_from_source`, both on level 0, for the plane through the point that faces the
+/// source camera: the derivative of one projection by the other. None if either does not see the
+/// point.
 std::optional<Eigen::Matrix2d> affine_warp(const geometry::Camera& camera,
-                                           const Eigen::Vector2d& pixel, double depth,
+                                           const Eigen::Vector3d& point_in_source,
                                            const geometry::Pose& target_from_source);
 
 /// Correlation below which a patch is not the same: found once by looking at true and false

@@ -1,9 +1,11 @@
 #include "tracking/pose_estimator.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <limits>
 
 #include "geometry/robust.h"
 
@@ -14,85 +16,120 @@ constexpr double kTukey = 4.685;   // 95 % efficiency on Gaussian noise (Huber, 
 constexpr double kMinSigma = 0.3;  // pixels: alignment is not better than this, whatever MAD says
 constexpr double kMaxInlierError = 3.0;  // pixels: a pose off by more explains nothing
 constexpr double kMaxSigma = 4.0;        // pixels: more is no longer noise
+// Squared length of a twist that changes nothing: a five-hundredth of a pixel where a pixel is a
+// five-hundredth of the depth.
+constexpr double kSettled = 1e-11;
 
-using Jacobian = Eigen::Matrix<double, 2, 6>;
+using geometry::Matrix6d;
+using geometry::Vector6d;
 
-struct Residual {
-  Eigen::Vector2d error = Eigen::Vector2d::Zero();  // pixels of the level
-  Jacobian jacobian = Jacobian::Zero();             // by a twist from the left
-  bool valid = false;
-};
-
-Residual residual_of(const geometry::Camera& camera, const Measurement& m,
-                     const geometry::FramePose& pose) {
-  Residual r;
-  const Eigen::Vector3d p = geometry::row_from_frame(camera, pose.readout_twist, m.pixel.y()) *
-                            (pose.camera_from_world * m.position);
-  Eigen::Matrix<double, 2, 3> by_point;
-  const auto pixel = camera.project(p, &by_point);
-  if (!pixel) return r;
-  const double inverse_scale = 1.0 / static_cast<double>(1 << m.level);
-  r.error = (m.pixel - *pixel) * inverse_scale;
-  // By a twist of the row's pose; that of the middle row differs in the second order only.
-  r.jacobian.leftCols<3>() = by_point * inverse_scale;
-  r.jacobian.rightCols<3>() = -by_point * inverse_scale * geometry::skew(p);
-  r.valid = true;
-  return r;
-}
-
-double robust_sigma(const std::vector<Residual>& residuals) {
-  std::vector<double> lengths;
-  lengths.reserve(residuals.size());
-  for (const Residual& r : residuals) {
-    if (r.valid) lengths.push_back(r.error.norm());
-  }
-  if (lengths.empty()) return kMaxSigma;
-  // The median length of a 2D Gaussian is 1.1774 sigma.
-  return std::clamp(geometry::median(std::move(lengths)) / 1.1774, kMinSigma, kMaxSigma);
-}
-
-/// One step of iteratively reweighted least squares; returns the squared length of the twist.
-double improve(const std::vector<Residual>& residuals, Freedom freedom, PoseEstimate& estimate) {
-  const double cutoff = kTukey * estimate.sigma_px;
-  geometry::Matrix6d hessian = geometry::Matrix6d::Identity() * 1e-9;
-  geometry::Vector6d gradient = geometry::Vector6d::Zero();
-  for (const Residual& r : residuals) {
-    if (!r.valid) continue;
-    const double weight = geometry::tukey_weight(r.error.norm(), cutoff);
-    if (weight == 0.0) continue;
-    hessian.noalias() += weight * r.jacobian.transpose() * r.jacobian;
-    gradient.noalias() += weight * r.jacobian.transpose() * r.error;
-  }
-  geometry::Vector6d step = geometry::Vector6d::Zero();
+/// Twist that the weighted normal equations ask for; zero if they have no answer.
+Vector6d solve(const Matrix6d& hessian, const Vector6d& gradient, Freedom freedom) {
+  Vector6d step = Vector6d::Zero();
   if (freedom == Freedom::All) {
     step = hessian.ldlt().solve(gradient);
   } else {
     step.tail<3>() = hessian.bottomRightCorner<3, 3>().ldlt().solve(gradient.tail<3>());
   }
-  if (!step.allFinite()) return 0.0;
-  estimate.pose.camera_from_world = geometry::exp_se3(step) * estimate.pose.camera_from_world;
-  return step.squaredNorm();
+  return step.allFinite() ? step : Vector6d::Zero();
 }
 
 }  // namespace
 
-PoseEstimate estimate_pose(const geometry::Camera& camera, std::span<Measurement> measurements,
-                           const geometry::FramePose& start, int iterations, Freedom freedom) {
-  PoseEstimate estimate{start, 0, kMaxSigma};
-  std::vector<Residual> residuals(measurements.size());
-  for (int iteration = 0; iteration < iterations; ++iteration) {
-    for (std::size_t i = 0; i < measurements.size(); ++i) {
-      residuals[i] = residual_of(camera, measurements[i], estimate.pose);
+double PoseEstimate::position_sigma() const {
+  // The centre is -R't: a twist moves it by -R' times the twist's translation, to the first order.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance.topLeftCorner<3, 3>(),
+                                                             Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(eigen.eigenvalues().maxCoeff(), 0.0));
+}
+
+void PoseEstimator::prepare(std::span<const Measurement> measurements,
+                            const geometry::FramePose& pose) {
+  const std::size_t count = measurements.size();
+  residuals_.x.resize(count);
+  residuals_.y.resize(count);
+  residuals_.length.resize(count);
+  residuals_.jacobian.resize(count);
+  residuals_.row_from_frame.clear();
+  if (camera_.profile().readout_s == 0.0) return;
+  for (const Measurement& m : measurements) {
+    residuals_.row_from_frame.push_back(
+        geometry::row_from_frame(camera_, pose.readout_twist, m.pixel.y()));
+  }
+}
+
+void PoseEstimator::evaluate(std::span<const Measurement> measurements,
+                             const geometry::FramePose& pose) {
+  const Eigen::Matrix3d rotation = pose.camera_from_world.matrix3();
+  for (std::size_t i = 0; i < measurements.size(); ++i) {
+    const Measurement& m = measurements[i];
+    Eigen::Vector3d p = rotation * m.position + pose.camera_from_world.translation;
+    if (!residuals_.row_from_frame.empty()) p = residuals_.row_from_frame[i] * p;
+    Eigen::Matrix<double, 2, 3> by_point;
+    const auto pixel = camera_.project(p, &by_point);
+    if (!pixel) {
+      residuals_.length[i] = std::numeric_limits<double>::infinity();
+      continue;
     }
-    estimate.sigma_px = robust_sigma(residuals);
-    if (improve(residuals, freedom, estimate) < 1e-14) break;
+    const double inverse_scale = 1.0 / static_cast<double>(1 << m.level);
+    const Eigen::Vector2d error = (m.pixel - *pixel) * inverse_scale;
+    residuals_.x[i] = error.x();
+    residuals_.y[i] = error.y();
+    residuals_.length[i] = error.norm();
+    // By a twist of the row's pose; that of the middle row differs in the second order only.
+    residuals_.jacobian[i].leftCols<3>() = by_point * inverse_scale;
+    residuals_.jacobian[i].rightCols<3>() = -by_point * inverse_scale * geometry::skew(p);
   }
+}
+
+double PoseEstimator::robust_sigma() {
+  std::vector<double>& sorted = residuals_.sorted;
+  sorted.clear();
+  for (const double length : residuals_.length) {
+    if (std::isfinite(length)) sorted.push_back(length);
+  }
+  if (sorted.empty()) return kMaxSigma;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  // The median length of a 2D Gaussian is 1.1774 sigma.
+  return std::clamp(*middle / 1.1774, kMinSigma, kMaxSigma);
+}
+
+PoseEstimate PoseEstimator::estimate(std::span<Measurement> measurements,
+                                     const geometry::FramePose& start, int iterations,
+                                     Freedom freedom) {
+  PoseEstimate estimate;
+  estimate.pose = start;
+  prepare(measurements, start);
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    evaluate(measurements, estimate.pose);
+    const double cutoff = kTukey * robust_sigma();
+    Matrix6d hessian = Matrix6d::Identity() * 1e-9;
+    Vector6d gradient = Vector6d::Zero();
+    for (std::size_t i = 0; i < measurements.size(); ++i) {
+      const double weight = geometry::tukey_weight(residuals_.length[i], cutoff);
+      if (weight == 0.0) continue;
+      const auto& jacobian = residuals_.jacobian[i];
+      hessian.noalias() += weight * jacobian.transpose() * jacobian;
+      gradient.noalias() += weight * (residuals_.x[i] * jacobian.row(0).transpose() +
+                                      residuals_.y[i] * jacobian.row(1).transpose());
+    }
+    const Vector6d step = solve(hessian, gradient, freedom);
+    estimate.pose.camera_from_world = geometry::exp_se3(step) * estimate.pose.camera_from_world;
+    if (step.squaredNorm() < kSettled) break;
+  }
+  evaluate(measurements, estimate.pose);
+  estimate.sigma_px = robust_sigma();
   const double bound = std::min(kTukey * estimate.sigma_px, kMaxInlierError);
-  for (Measurement& m : measurements) {
-    const Residual r = residual_of(camera, m, estimate.pose);
-    m.inlier = r.valid && r.error.norm() < bound;
-    estimate.inliers += m.inlier ? 1 : 0;
+  Matrix6d information = Matrix6d::Identity() * 1e-9;
+  for (std::size_t i = 0; i < measurements.size(); ++i) {
+    Measurement& m = measurements[i];
+    m.inlier = residuals_.length[i] < bound;
+    if (!m.inlier) continue;
+    ++estimate.inliers;
+    information.noalias() += residuals_.jacobian[i].transpose() * residuals_.jacobian[i];
   }
+  estimate.covariance = estimate.sigma_px * estimate.sigma_px * information.inverse();
   return estimate;
 }
 

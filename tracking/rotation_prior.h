@@ -13,7 +13,10 @@ namespace lumibox::tracking {
 class SmallImage {
  public:
   SmallImage() = default;
-  explicit SmallImage(const Pyramid& pyramid);
+  explicit SmallImage(const Pyramid& pyramid) { assign(pyramid); }
+
+  /// Becomes another picture's, in the memory that it has.
+  void assign(const Pyramid& pyramid);
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -26,10 +29,13 @@ class SmallImage {
   double contrast() const;
 
  private:
+  void blur();
+
   int width_ = 0;
   int height_ = 0;
   int scale_ = 1;
-  std::vector<float> values_;  ///< blurred, mean removed
+  std::vector<float> values_;   ///< blurred, mean removed
+  std::vector<float> blurred_;  ///< in one direction, while it is made
 };
 
 struct RotationPrior {

@@ -33,7 +33,8 @@ class Tracker::Impl {
         relocaliser_(camera, options, seed),
         motion_(camera),
         turn_(camera, options),
-        chooser_(camera, options) {}
+        chooser_(camera, options),
+        localiser_(camera, options) {}
 
   TrackedFrame track(const hal::Image& gray, std::int64_t index, std::int64_t timestamp_ns) {
     TrackedFrame result;
@@ -47,7 +48,7 @@ class Tracker::Impl {
     } else {
       adopt_newest_map();
       jumped_ = false;
-      const auto found = lost_ ? relocalise(*frame) : localise_from_motion(*frame);
+      const Localisation* found = lost_ ? relocalise(*frame) : localise_from_motion(*frame);
       judge(found, frame, result);
       const bool good = result.state == TrackingState::Good;
       if (auto request = chooser_.complete(motion_); request && good) {
@@ -136,40 +137,38 @@ class Tracker::Impl {
     camera_from_world_ = (keyframe(anchor_).world_from_keyframe() * anchor_from_camera_).inverse();
   }
 
-  std::optional<Localisation> localise_from_motion(const Pyramid& frame) {
+  const Localisation* localise_from_motion(const Pyramid& frame) {
     predicted_ = motion_.predict(camera_from_world_);
-    auto found = localise(camera_, options_, *map_, frame, predicted_);
+    const Localisation* found = localiser_.localise(*map_, frame, predicted_);
     if (found && camera_.profile().readout_s > 0.0) {
-      found->pose.readout_twist =
-          motion_.readout_twist(camera_from_world_, found->pose.camera_from_world);
-      const PoseEstimate estimate = estimate_pose(camera_, found->measurements, found->pose, 10);
-      found->pose = estimate.pose;
-      found->inliers = estimate.inliers;
+      found = localiser_.with_readout(
+          motion_.readout_twist(camera_from_world_, found->pose.camera_from_world));
     }
     // While the camera is turned away the map may show by chance, or from elsewhere.
     if (turn_.active() && !(found && is_good(*found))) {
-      return ++frames_turned_ % kTurnTries == 0 ? relocalise(frame) : std::nullopt;
+      return ++frames_turned_ % kTurnTries == 0 ? relocalise(frame) : nullptr;
     }
     return found;
   }
 
-  std::optional<Localisation> relocalise(const Pyramid& frame) {
-    std::vector<Localisation> found;
+  const Localisation* relocalise(const Pyramid& frame) {
     std::vector<PossiblePlace> places;
     for (const geometry::Pose& pose : relocaliser_.find(*map_, frame, motion_.picture())) {
-      auto here = localise(camera_, options_, *map_, frame, pose);
+      const Localisation* here = localiser_.localise(*map_, frame, pose);
       if (!here || !is_verified(*here)) continue;
       places.push_back({here->pose.camera_from_world, here->inliers});
-      found.push_back(std::move(*here));
     }
     const double seconds = 1e-9 * static_cast<double>(motion_.timestamp_ns() - last_pose_ns_);
     const auto chosen =
         choose_place(places, {camera_from_world_, keyframe(anchor_).median_depth, seconds});
-    if (!chosen) return std::nullopt;
+    if (!chosen) return nullptr;
+    const Localisation* found =
+        localiser_.localise(*map_, frame, places[*chosen].camera_from_world);
+    if (!found) return nullptr;
     lost_ = false;
     jumped_ = true;
     ++relocalisations_;
-    return std::move(found[*chosen]);
+    return found;
   }
 
   bool is_good(const Localisation& found) const {
@@ -177,7 +176,7 @@ class Tracker::Impl {
   }
 
   /// Decides from what was found how far the pose can be trusted, and remembers it.
-  void judge(const std::optional<Localisation>& found, const std::shared_ptr<const Pyramid>& frame,
+  void judge(const Localisation* found, const std::shared_ptr<const Pyramid>& frame,
              TrackedFrame& result) {
     result.reason = motion_.picture().contrast() < kMinContrast ? TrackingReason::TooDarkOrBlurred
                     : lost_                                     ? TrackingReason::Relocalising
@@ -280,6 +279,7 @@ class Tracker::Impl {
   MotionModel motion_;
   TurnFollower turn_;
   KeyframeChooser chooser_;
+  Localiser localiser_;
 
   std::shared_ptr<const MapView> map_;        // the copy in use; null before initialisation
   geometry::Pose camera_from_world_;          // of the last frame with a pose

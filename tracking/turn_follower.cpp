@@ -7,18 +7,18 @@
 #include <vector>
 
 #include "tracking/corners.h"
-#include "tracking/frame_search.h"
-#include "tracking/pose_estimator.h"
 
 namespace lumibox::tracking {
 namespace {
 
-constexpr int kCorners = 300;    // per picture of the panorama
-constexpr int kMaxPoints = 200;  // looked for in one picture
-constexpr int kCoarsePoints = 60;
-constexpr double kCoarseRadius = 6.0;  // pixels of level 2
-constexpr double kFineRadius = 4.0;    // pixels
-constexpr int kIterations = 10;
+constexpr int kCorners = 300;  // per picture of the panorama
+constexpr LocalisationPasses kPasses = {.coarse_points = 60,
+                                        .min_coarse = 0,
+                                        .coarse_radius = 6.0,
+                                        .wide_radius = 0.0,
+                                        .fine_points = 200,
+                                        .fine_radius = 4.0,
+                                        .freedom = Freedom::Rotation};
 constexpr int kMinInliers = 25;                           // fewer may agree by chance
 constexpr double kMinShare = 0.4;                         // of the points looked for
 constexpr double kStep = 8.0 * std::numbers::pi / 180.0;  // of the turn, to the next picture
@@ -41,7 +41,7 @@ std::vector<bool> occupied_cells(const geometry::Camera& camera, const MapView& 
 }  // namespace
 
 TurnFollower::TurnFollower(const geometry::Camera& camera, const config::Tracking& options)
-    : camera_(camera), options_(options) {}
+    : camera_(camera), options_(options), localiser_(camera, kPasses) {}
 
 void TurnFollower::start(const std::shared_ptr<const Pyramid>& picture,
                          const Eigen::Quaterniond& camera_from_world) {
@@ -81,21 +81,12 @@ void TurnFollower::extend(const std::shared_ptr<const Pyramid>& picture,
 
 std::optional<Eigen::Quaterniond> TurnFollower::follow(
     const std::shared_ptr<const Pyramid>& picture, const Eigen::Quaterniond& predicted) {
-  const geometry::Pose start(predicted, Eigen::Vector3d::Zero());
-  const int coarse_level = std::min(2, picture->levels() - 1);
-  SearchResult coarse =
-      search_map(camera_, panorama_, *picture, start, {coarse_level, kCoarseRadius, kCoarsePoints});
-  const PoseEstimate rough =
-      estimate_pose(camera_, coarse.measurements, start, kIterations, Freedom::Rotation);
-  SearchResult fine =
-      search_map(camera_, panorama_, *picture, rough.pose, {0, kFineRadius, kMaxPoints});
-  const PoseEstimate estimate =
-      estimate_pose(camera_, fine.measurements, rough.pose, kIterations, Freedom::Rotation);
-  if (estimate.inliers < kMinInliers ||
-      estimate.inliers < kMinShare * static_cast<double>(fine.attempted.size())) {
+  const Localisation* found =
+      localiser_.localise(panorama_, *picture, geometry::Pose(predicted, Eigen::Vector3d::Zero()));
+  if (!found || found->inliers < kMinInliers || found->found_share() < kMinShare) {
     return std::nullopt;
   }
-  const Eigen::Quaterniond turned = estimate.pose.camera_from_world.rotation;
+  const Eigen::Quaterniond turned = found->pose.camera_from_world.rotation;
   // Of all its pictures, not of the last: who turns to and fro for an hour adds none.
   const bool is_new = std::ranges::all_of(panorama_.keyframes, [&](const auto& keyframe) {
     return keyframe.camera_from_world.rotation.angularDistance(turned) > kStep;

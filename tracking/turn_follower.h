@@ -8,6 +8,7 @@
 
 #include "config/config.h"
 #include "geometry/camera.h"
+#include "tracking/map_tracking.h"
 #include "tracking/map_view.h"
 #include "tracking/rotation_prior.h"
 
@@ -46,6 +47,7 @@ class TurnFollower {
 
   geometry::Camera camera_;
   config::Tracking options_;
+  Localiser localiser_;
   /// A map whose keyframes all are at the origin and whose points are unit vectors.
   MapView panorama_;
   std::vector<SmallImage> small_;  // one per keyframe
