@@ -16,8 +16,8 @@
 #include "config/error.h"
 #include "geometry/robust.h"
 #include "hal/replay/replay_camera.h"
+#include "hal/sim/random_scene.h"
 #include "hal/sim/scene.h"
-#include "hal/sim/sim_camera.h"
 #include "hal/sim/virtual_clock.h"
 
 namespace lumibox::app {
@@ -25,20 +25,29 @@ namespace {
 
 constexpr const char* kScene = "toy";
 
-bench::Footage film_scene(std::int64_t frames) {
-  const auto scene = hal::load_scene(find_scene(kScene));
-  hal::VirtualClock clock;
-  hal::SimCamera camera(scene, clock);
-  camera.start();
-  bench::Footage footage = bench::film(std::string("simulated ") + kScene, camera, clock, frames);
-  for (const bench::Footage::Frame& frame : footage.frames) {
-    const double time_s = 1e-9 * static_cast<double>(frame.timestamp_ns);
-    footage.truth.push_back({time_s, scene->world_from_camera(time_s)});
-  }
-  return footage;
+/// Footage that is judged together: table and plot have the medians over all of it.
+struct Group {
+  std::string name;
+  std::vector<bench::Footage> footages;
+};
+
+Group film_toy(std::int64_t frames) {
+  const std::string name = std::string("simulated ") + kScene;
+  return {name, {bench::film_scene(name, hal::load_scene(find_scene(kScene)), frames)}};
 }
 
-bench::Footage film_sequence(const std::filesystem::path& path, std::int64_t frames) {
+Group draw_scenes(const SeedRange& seeds, std::int64_t frames) {
+  Group group{fmt::format("random scenes {} to {}", seeds.first, seeds.last), {}};
+  Progress progress("filming random scenes", seeds.last - seeds.first + 1);
+  for (std::uint32_t seed = seeds.first; seed <= seeds.last; ++seed) {
+    const auto scene = hal::make_scene(hal::sim::random_scene({seed, {}, {}, {}}));
+    group.footages.push_back(bench::film_scene(fmt::format("random {}", seed), scene, frames));
+    progress.show(seed - seeds.first + 1);
+  }
+  return group;
+}
+
+Group film_sequence(const std::filesystem::path& path, std::int64_t frames) {
   const hal::Sequence sequence = hal::open_sequence(path);
   hal::VirtualClock clock;
   hal::ReplayCamera camera(sequence, clock, hal::Pacing::Lockstep);
@@ -46,7 +55,7 @@ bench::Footage film_sequence(const std::filesystem::path& path, std::int64_t fra
   const std::filesystem::path name = path.has_filename() ? path : path.parent_path();
   bench::Footage footage = bench::film(name.filename().string(), camera, clock, frames);
   footage.truth = sequence.ground_truth;
-  return footage;
+  return {footage.name, {footage}};
 }
 
 /// Measurements go to the file one by one, so that a run that is broken off keeps what it has.
@@ -64,7 +73,7 @@ class Lines {
   std::ofstream stream_;
 };
 
-/// The medians of a variation's runs.
+/// The medians of a variation over its runs.
 bench::SweepPoint median_of(const bench::Variation& variation,
                             const std::vector<bench::TrackingResult>& runs) {
   std::vector<double> ms;
@@ -130,27 +139,37 @@ void measure_default(const bench::Footage& footage, const config::Config& config
               tracker.cpu_ms.median / orb.cpu_ms.median);
 }
 
-std::vector<bench::SweepCurve> sweep(const bench::Footage& footage, const config::Config& config,
-                                     int runs, Lines& lines) {
-  const auto variations = bench::tracking_variations(config.tracking, footage.camera.width());
-  std::vector<bench::SweepCurve> curves;
-  Progress progress("measuring " + footage.name, std::ssize(variations) * runs);
-  std::int64_t done = 0;
-  for (const bench::Variation& variation : variations) {
+/// One value of a setting on all the footage, each run with another seed.
+std::vector<bench::TrackingResult> measure(const Group& group, const bench::Variation& variation,
+                                           int runs, Lines& lines) {
+  std::vector<bench::TrackingResult> results;
+  for (const bench::Footage& footage : group.footages) {
     bench::Footage shown = footage;
     for (int i = 0; i < variation.halvings; ++i) shown = bench::halved(shown);
-    std::vector<bench::TrackingResult> results;
     for (int run = 0; run < runs; ++run) {
       const auto seed = static_cast<std::uint32_t>(run);
       results.push_back(
           bench::measure_tracking(shown, variation.options, bench::Pace::Awaited, seed));
       lines.add(bench::to_json(footage, variation, seed, results.back()));
-      progress.show(++done);
     }
+  }
+  return results;
+}
+
+std::vector<bench::SweepCurve> sweep(const Group& group, const config::Config& config, int runs,
+                                     Lines& lines) {
+  const int width = group.footages.front().camera.width();
+  const auto variations = bench::tracking_variations(config.tracking, width);
+  std::vector<bench::SweepCurve> curves;
+  Progress progress("measuring " + group.name, std::ssize(variations));
+  std::int64_t done = 0;
+  for (const bench::Variation& variation : variations) {
+    const auto results = measure(group, variation, runs, lines);
     if (curves.empty() || curves.back().setting != variation.setting) {
-      curves.push_back({variation.setting, footage.name, {}});
+      curves.push_back({variation.setting, group.name, {}});
     }
     curves.back().points.push_back(median_of(variation, results));
+    progress.show(++done);
   }
   return curves;
 }
@@ -160,18 +179,20 @@ void bench_tracking(const BenchOptions& options, const config::Config& config) {
   const std::filesystem::path plot = options.out / "tracking.svg";
   require_writable(json);
   require_writable(plot);
-  std::vector<bench::Footage> footages;
+  std::vector<Group> groups;
   for (const auto& sequence : options.sequences) {
-    footages.push_back(film_sequence(sequence, options.frames));
+    groups.push_back(film_sequence(sequence, options.frames));
   }
-  footages.push_back(film_scene(options.frames));
+  if (options.random) groups.push_back(draw_scenes(*options.random, options.frames));
+  groups.push_back(film_toy(options.frames));
 
   Lines lines(json);
   std::vector<bench::SweepCurve> curves;
-  for (const bench::Footage& footage : footages) {
-    measure_default(footage, config, lines);
+  for (const Group& group : groups) {
+    for (const bench::Footage& footage : group.footages) measure_default(footage, config, lines);
+    std::printf("%s\n", group.name.c_str());
     print_head();
-    for (const bench::SweepCurve& curve : sweep(footage, config, options.runs, lines)) {
+    for (const bench::SweepCurve& curve : sweep(group, config, options.runs, lines)) {
       print_curve(curve);
       curves.push_back(curve);
     }
