@@ -142,7 +142,8 @@ class Tracker::Impl {
     if (found && camera_.profile().readout_s > 0.0) {
       found->pose.readout_twist =
           motion_.readout_twist(camera_from_world_, found->pose.camera_from_world);
-      const PoseEstimate estimate = estimate_pose(camera_, found->measurements, found->pose, 10);
+      const PoseEstimate estimate =
+          estimate_pose(camera_, found->measurements, found->pose, options_.pose_iterations);
       found->pose = estimate.pose;
       found->inliers = estimate.inliers;
     }

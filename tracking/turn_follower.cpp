@@ -16,9 +16,8 @@ namespace {
 constexpr int kCorners = 300;    // per picture of the panorama
 constexpr int kMaxPoints = 200;  // looked for in one picture
 constexpr int kCoarsePoints = 60;
-constexpr double kCoarseRadius = 6.0;  // pixels of level 2
-constexpr double kFineRadius = 4.0;    // pixels
-constexpr int kIterations = 10;
+constexpr double kCoarseRadius = 6.0;                     // pixels of level 2
+constexpr double kFineRadius = 4.0;                       // pixels
 constexpr int kMinInliers = 25;                           // fewer may agree by chance
 constexpr double kMinShare = 0.4;                         // of the points looked for
 constexpr double kStep = 8.0 * std::numbers::pi / 180.0;  // of the turn, to the next picture
@@ -85,12 +84,12 @@ std::optional<Eigen::Quaterniond> TurnFollower::follow(
   const int coarse_level = std::min(2, picture->levels() - 1);
   SearchResult coarse =
       search_map(camera_, panorama_, *picture, start, {coarse_level, kCoarseRadius, kCoarsePoints});
-  const PoseEstimate rough =
-      estimate_pose(camera_, coarse.measurements, start, kIterations, Freedom::Rotation);
+  const PoseEstimate rough = estimate_pose(camera_, coarse.measurements, start,
+                                           options_.pose_iterations, Freedom::Rotation);
   SearchResult fine =
       search_map(camera_, panorama_, *picture, rough.pose, {0, kFineRadius, kMaxPoints});
-  const PoseEstimate estimate =
-      estimate_pose(camera_, fine.measurements, rough.pose, kIterations, Freedom::Rotation);
+  const PoseEstimate estimate = estimate_pose(camera_, fine.measurements, rough.pose,
+                                              options_.pose_iterations, Freedom::Rotation);
   if (estimate.inliers < kMinInliers ||
       estimate.inliers < kMinShare * static_cast<double>(fine.attempted.size())) {
     return std::nullopt;
