@@ -1,5 +1,7 @@
 #include "bench/footage.h"
 
+#include "hal/sim/sim_camera.h"
+#include "hal/sim/virtual_clock.h"
 #include "tracking/pyramid.h"
 
 namespace lumibox::bench {
@@ -15,6 +17,19 @@ Footage film(const std::string& name, hal::Camera& camera, hal::Clock& clock, st
     if (const auto frame = camera.take_newest()) {
       footage.frames.push_back({frame->timestamp_ns, frame->gray});
     }
+  }
+  return footage;
+}
+
+Footage film_scene(const std::string& name, const std::shared_ptr<const hal::Scene>& scene,
+                   std::int64_t count) {
+  hal::VirtualClock clock;
+  hal::SimCamera camera(scene, clock);
+  camera.start();
+  Footage footage = film(name, camera, clock, count);
+  for (const Footage::Frame& frame : footage.frames) {
+    const double time_s = 1e-9 * static_cast<double>(frame.timestamp_ns);
+    footage.truth.push_back({time_s, scene->world_from_camera(time_s)});
   }
   return footage;
 }

@@ -10,6 +10,7 @@
 #include "hal/clock.h"
 #include "hal/image.h"
 #include "hal/replay/sequence.h"
+#include "hal/sim/scene.h"
 
 namespace lumibox::bench {
 
@@ -28,6 +29,11 @@ struct Footage {
 /// Takes up to `count` pictures from a camera that has been started, at its own rate; fewer if the
 /// camera ends before. `clock` is the one that the camera goes by. The truth is left to the caller.
 Footage film(const std::string& name, hal::Camera& camera, hal::Clock& clock, std::int64_t count);
+
+/// The first `count` pictures of a simulated camera and the truth about them; fewer if the scene
+/// ends before.
+Footage film_scene(const std::string& name, const std::shared_ptr<const hal::Scene>& scene,
+                   std::int64_t count);
 
 /// The same pictures halved, as a camera with half the pixels would have taken them.
 Footage halved(const Footage& footage);

@@ -1,21 +1,17 @@
 // What stability costs: the time of geometry's functions over that of their plain textbook forms,
 // which fail in the hard cases of tests/numerics. Prints JSON lines, ratios of one run.
 
+#include "bench/numerics.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <ctime>
-#include <functional>
-#include <nlohmann/json.hpp>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "geometry/absolute_pose.h"
 #include "geometry/camera.h"
 #include "geometry/pose.h"
-#include "geometry/robust.h"
 #include "geometry/triangulation.h"
 #include "geometry/two_view.h"
 #include "geometry/two_view_models.h"
@@ -25,64 +21,6 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-/// Results go here, so that no work is optimised away.
-volatile double sink = 0.0;  // NOLINT: a benchmark's
-
-double cpu_ns() {
-  std::timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
-}
-
-double ns_per_call(const std::function<double()>& all, std::size_t calls) {
-  const double before = cpu_ns();
-  sink = sink + all();
-  return (cpu_ns() - before) / static_cast<double>(calls);
-}
-
-/// `f` summed over the inputs.
-template <typename Input, typename F>
-std::function<double()> over(const std::vector<Input>& inputs, const F& f) {
-  return [&inputs, f] {
-    double sum = 0.0;
-    for (const Input& input : inputs) sum += f(input);
-    return sum;
-  };
-}
-
-/// Both take turns, so that whatever else the machine does meets both.
-void compare(const std::string& what, const std::string& plain_is, std::size_t calls,
-             const std::function<double()>& robust, const std::function<double()>& plain) {
-  std::vector<double> robust_ns;
-  std::vector<double> plain_ns;
-  for (int round = 0; round < 21; ++round) {
-    robust_ns.push_back(ns_per_call(robust, calls));
-    plain_ns.push_back(ns_per_call(plain, calls));
-  }
-  const double a = median(robust_ns);
-  const double b = median(plain_ns);
-  const nlohmann::json line = {
-      {"what", what}, {"plain", plain_is}, {"ns", a}, {"ns_plain", b}, {"ratio", a / b}};
-  std::puts(line.dump().c_str());
-}
-
-/// Reproducible coordinates in [-1, 1).
-class Numbers {
- public:
-  double next() {
-    state_ = state_ * 6364136223846793005U + 1442695040888963407U;
-    return static_cast<double>(state_ >> 11U) * 0x1p-52 - 1.0;
-  }
-  Vector3d vector() {
-    const double x = next();
-    const double y = next();
-    return {x, y, next()};
-  }
-
- private:
-  std::uint64_t state_ = 1;
-};
 
 Eigen::Quaterniond plain_exp(const Vector3d& v) {
   const double angle = v.norm();
@@ -258,4 +196,5 @@ int main() {
   lumibox::geometry::compare_groups(&numbers);
   lumibox::geometry::compare_unproject(&numbers);
   lumibox::geometry::compare_solvers(&numbers);
+  lumibox::geometry::compare_precision(&numbers);
 }

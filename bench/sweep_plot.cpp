@@ -85,11 +85,13 @@ void draw_curve(Svg& svg, const Axes& axes, const SweepCurve& curve, std::string
   draw_labels(svg, axes, curve, color);
 }
 
-/// The same for all diagrams, so that a large effect looks larger than a small one.
-std::pair<Axis, Axis> common_axes(const std::vector<SweepCurve>& curves) {
+/// The same for all diagrams of what costs the same kind of time, so that a large effect looks
+/// larger than a small one.
+std::pair<Axis, Axis> common_axes(const std::vector<SweepCurve>& curves, const SweepCurve& like) {
   Range ms{0.0, 1.0};
   Range error;
   for (const SweepCurve& curve : curves) {
+    if (curve.costs != like.costs) continue;
     for (const SweepPoint& point : curve.points) {
       if (!point.error) continue;
       ms.include(1.15 * point.ms);
@@ -97,9 +99,7 @@ std::pair<Axis, Axis> common_axes(const std::vector<SweepCurve>& curves) {
     }
   }
   if (error.empty()) error = {0.1, 1.0};
-  return {
-      {"median processor time of a frame [ms]", ms},
-      {"live error [% of the extent]", {0.7 * error.low, 1.5 * error.high}, Scale::Logarithmic}};
+  return {{like.costs, ms}, {like.buys, {0.7 * error.low, 1.5 * error.high}, Scale::Logarithmic}};
 }
 
 void draw_legend(Svg& svg, const std::vector<std::string>& footages, Vector2d at) {
@@ -143,10 +143,11 @@ Svg draw_sweep(const std::string& title, const std::vector<SweepCurve>& curves) 
   const std::size_t rows = (settings.size() + kColumns - 1) / kColumns;
   Svg svg(static_cast<double>(kColumns) * (kLeft + kWidth) + 25.0,
           kTop + static_cast<double>(rows) * kRowHeight);
-  const auto [x, y] = common_axes(curves);
   svg.text({20.0, 30.0}, title, {.size = 18, .bold = true});
   draw_legend(svg, footages, {20.0, 56.0});
   for (std::size_t i = 0; i < settings.size(); ++i) {
+    const auto first = std::ranges::find(curves, settings[i], &SweepCurve::setting);
+    const auto [x, y] = common_axes(curves, *first);
     const Vector2d cell(static_cast<double>(i % kColumns), static_cast<double>(i / kColumns));
     const Axes axes({kLeft + cell.x() * (kLeft + kWidth), kTop + cell.y() * kRowHeight},
                     {kWidth, kHeight}, x, y);

@@ -12,10 +12,9 @@ namespace lumibox::bench {
 struct SweepPoint {
   double value = 0.0;
   bool is_default = false;
-  double ms = 0.0;              ///< processor time of the tracker's thread, median over frames
+  double ms = 0.0;              ///< what it costs
   std::optional<double> error;  ///< none: no truth, or too little tracked to compare
   double tracked_share = 1.0;
-  double mapping_ms = 0.0;  ///< of the mapper, mean per frame; not drawn
 };
 
 /// What a setting costs and brings on one footage, in ascending order of its value.
@@ -23,6 +22,8 @@ struct SweepCurve {
   std::string setting;
   std::string footage;
   std::vector<SweepPoint> points;
+  std::string costs = "ms";        ///< label of the times; diagrams of one label share their axes
+  std::string buys = "error [%]";  ///< label of the errors
 };
 
 /// The knee: of the points that track as many frames as the best (to 5 %) and are at most 10 % less

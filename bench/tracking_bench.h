@@ -11,12 +11,20 @@
 
 namespace lumibox::bench {
 
+/// Where a setting's cost is paid, and which error it is meant to buy.
+enum class Buys {
+  Tracker,  ///< processor time of a frame; the live error
+  Mapper,   ///< the mapper's time per frame; the live error
+  Final,    ///< time of the final adjustment; the error after it
+};
+
 /// One way to set the tracker up that differs from the default in one setting.
 struct Variation {
   std::string setting;  ///< e.g. "max_measurements"
   double value = 0.0;
   bool is_default = false;
   config::Tracking options;
+  Buys buys = Buys::Tracker;
   int halvings = 0;  ///< of the pictures before they are tracked
 };
 

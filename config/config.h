@@ -23,7 +23,10 @@ struct Tracking {
   double search_radius_px = 4.0;         ///< of the level searched, after the coarse pass
   double lost_inlier_share = 0.25;  ///< share of searched points found below which quality is bad
   int lost_after_frames = 5;        ///< bad frames in a row until the tracker is lost
+  int pose_iterations = 10;         ///< steps of a pose from its measurements, at most
   int local_keyframes = 8;          ///< keyframes in a local bundle adjustment
+  int local_iterations = 5;         ///< steps of a local bundle adjustment, at most
+  int global_iterations = 20;       ///< steps of an adjustment of the whole map, at most
   double keyframe_parallax_deg = 4.5;  ///< median parallax to the nearest keyframe for a new one
 };
 

@@ -12,7 +12,6 @@ constexpr int kMinKeyframeGap = 4;             // frames
 constexpr std::size_t kMaxEvidence = 100000;   // about a hundred frames' worth
 constexpr double kRefreshShare = 0.5;          // of the nearest keyframe's points still measured
 constexpr double kMinRefreshBaseline = 0.012;  // of the depth: without a baseline, no new points
-constexpr int kIterations = 10;
 
 }  // namespace
 
@@ -80,7 +79,7 @@ std::optional<KeyframeRequest> KeyframeChooser::complete(const MotionModel& moti
       (p.interval_s + motion.interval_s());
   p.found.pose.readout_twist = camera_.profile().readout_s * velocity;
   const PoseEstimate estimate =
-      estimate_pose(camera_, p.found.measurements, p.found.pose, kIterations);
+      estimate_pose(camera_, p.found.measurements, p.found.pose, options_.pose_iterations);
   p.request.reference_from_camera = p.request.reference_from_camera *
                                     p.found.pose.camera_from_world *
                                     estimate.pose.camera_from_world.inverse();

@@ -12,9 +12,7 @@
 namespace lumibox::tracking {
 namespace {
 
-constexpr int kLocalIterations = 5;
-constexpr int kFixedViews = 10;  // that see most of the points; more add time, not accuracy
-constexpr int kGlobalIterations = 20;
+constexpr int kFixedViews = 10;   // that see most of the points; more add time, not accuracy
 constexpr double kOutlier = 3.5;  // sigmas; 0.2 % of Gaussian errors in 2D are larger
 
 struct MapProblem {
@@ -107,19 +105,21 @@ void adjust_keyframes(const geometry::Camera& camera, Map& map, std::set<Keyfram
 
 }  // namespace
 
-void adjust_locally(const geometry::Camera& camera, Map& map, KeyframeId id, int window) {
-  const std::vector<KeyframeId> neighbours = covisible_keyframes(map, id, window - 1);
+void adjust_locally(const geometry::Camera& camera, const config::Tracking& options, Map& map,
+                    KeyframeId id) {
+  const std::vector<KeyframeId> neighbours =
+      covisible_keyframes(map, id, options.local_keyframes - 1);
   std::set<KeyframeId> free(neighbours.begin(), neighbours.end());
   free.insert(id);
-  adjust_keyframes(camera, map, free, kLocalIterations);
+  adjust_keyframes(camera, map, free, options.local_iterations);
 }
 
-void adjust_globally(const geometry::Camera& camera, Map& map) {
+void adjust_globally(const geometry::Camera& camera, const config::Tracking& options, Map& map) {
   std::set<KeyframeId> free;
   for (KeyframeId id = 0; id < static_cast<KeyframeId>(map.keyframes().size()); ++id) {
     free.insert(id);
   }
-  adjust_keyframes(camera, map, free, kGlobalIterations);
+  adjust_keyframes(camera, map, free, options.global_iterations);
 }
 
 }  // namespace lumibox::tracking

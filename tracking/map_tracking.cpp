@@ -4,11 +4,6 @@
 #include <utility>
 
 namespace lumibox::tracking {
-namespace {
-
-constexpr int kIterations = 10;
-
-}  // namespace
 
 Localiser::Localiser(const geometry::Camera& camera, const LocalisationPasses& passes)
     : passes_(passes), search_(camera), estimator_(camera) {}
@@ -19,7 +14,7 @@ std::optional<geometry::FramePose> Localiser::coarse_pose(const MapView& map, co
   const int coarse_level = std::min(2, frame.levels() - 1);
   search_.search(map, frame, predicted, {coarse_level, radius, passes_.coarse_points}, found_);
   const PoseEstimate estimate =
-      estimator_.estimate(found_.measurements, predicted, kIterations, passes_.freedom);
+      estimator_.estimate(found_.measurements, predicted, passes_.iterations, passes_.freedom);
   if (estimate.inliers < passes_.min_coarse) return std::nullopt;
   return estimate.pose;
 }
@@ -46,7 +41,7 @@ const Localisation* Localiser::with_readout(const geometry::Vector6d& twist) {
 
 void Localiser::estimate(const geometry::FramePose& start) {
   const PoseEstimate estimate =
-      estimator_.estimate(located_.measurements, start, kIterations, passes_.freedom);
+      estimator_.estimate(located_.measurements, start, passes_.iterations, passes_.freedom);
   located_.pose = estimate.pose;
   located_.inliers = estimate.inliers;
   located_.position_sigma = estimate.position_sigma();

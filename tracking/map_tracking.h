@@ -35,6 +35,7 @@ struct LocalisationPasses {
   int fine_points = 700;
   double fine_radius = 4.0;  ///< pixels of the level searched
   Freedom freedom = Freedom::All;
+  int iterations = 10;  ///< of each pose, at most
 };
 
 /// Locates frames in a map, coarse to fine: few points on coarse levels with a wide search, then
@@ -45,7 +46,8 @@ class Localiser {
   Localiser(const geometry::Camera& camera, const LocalisationPasses& passes);
   Localiser(const geometry::Camera& camera, const config::Tracking& options)
       : Localiser(camera, {.fine_points = options.max_measurements,
-                           .fine_radius = options.search_radius_px}) {}
+                           .fine_radius = options.search_radius_px,
+                           .iterations = options.pose_iterations}) {}
 
   /// Locates a frame near a predicted pose. Null if the coarse pass finds too little to go on with;
   /// what is pointed to lasts until the next frame.

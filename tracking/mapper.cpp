@@ -44,9 +44,9 @@ void Mapper::start(const InitialMap& initial) {
     map_.add_sighting(id, {second, p.second_pixel, p.level});
   }
   map_.update_depths();
-  adjust_globally(camera_, map_);
+  adjust_globally(camera_, options_, map_);
   create_points(camera_, options_, map_, second);
-  adjust_globally(camera_, map_);
+  adjust_globally(camera_, options_, map_);
   if (map_.keyframe(first).median_depth > 0.0) map_.scale(1.0 / map_.keyframe(first).median_depth);
   publish();
 }
@@ -86,8 +86,8 @@ void Mapper::finish() {
       if (close_loop_at(id, kMinLastTies)) break;
     }
     // Twice: the second pass no longer has the outliers that the first removed.
-    adjust_globally(camera_, map_);
-    adjust_globally(camera_, map_);
+    adjust_globally(camera_, options_, map_);
+    adjust_globally(camera_, options_, map_);
     publish();
   });
 }
@@ -138,8 +138,8 @@ void Mapper::integrate(const KeyframeRequest& request) {
   }
   map_.update_depths();
   create_points(camera_, options_, map_, id);
-  adjust_locally(camera_, map_, id, options_.local_keyframes);
-  if (close_loop_at(id, kMinTies)) adjust_globally(camera_, map_);
+  adjust_locally(camera_, options_, map_, id);
+  if (close_loop_at(id, kMinTies)) adjust_globally(camera_, options_, map_);
   publish();
 }
 

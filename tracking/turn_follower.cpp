@@ -11,18 +11,22 @@
 namespace lumibox::tracking {
 namespace {
 
-constexpr int kCorners = 300;  // per picture of the panorama
-constexpr LocalisationPasses kPasses = {.coarse_points = 60,
-                                        .min_coarse = 0,
-                                        .coarse_radius = 6.0,
-                                        .wide_radius = 0.0,
-                                        .fine_points = 200,
-                                        .fine_radius = 4.0,
-                                        .freedom = Freedom::Rotation};
+constexpr int kCorners = 300;                             // per picture of the panorama
 constexpr int kMinInliers = 25;                           // fewer may agree by chance
 constexpr double kMinShare = 0.4;                         // of the points looked for
 constexpr double kStep = 8.0 * std::numbers::pi / 180.0;  // of the turn, to the next picture
 constexpr int kCell = 32;                                 // pixels, with one corner at most
+
+LocalisationPasses passes(const config::Tracking& options) {
+  return {.coarse_points = 60,
+          .min_coarse = 0,
+          .coarse_radius = 6.0,
+          .wide_radius = 0.0,
+          .fine_points = 200,
+          .fine_radius = 4.0,
+          .freedom = Freedom::Rotation,
+          .iterations = options.pose_iterations};
+}
 
 /// Cells of the picture that show a point of the panorama already.
 std::vector<bool> occupied_cells(const geometry::Camera& camera, const MapView& panorama,
@@ -41,7 +45,7 @@ std::vector<bool> occupied_cells(const geometry::Camera& camera, const MapView& 
 }  // namespace
 
 TurnFollower::TurnFollower(const geometry::Camera& camera, const config::Tracking& options)
-    : camera_(camera), options_(options), localiser_(camera, kPasses) {}
+    : camera_(camera), options_(options), localiser_(camera, passes(options)) {}
 
 void TurnFollower::start(const std::shared_ptr<const Pyramid>& picture,
                          const Eigen::Quaterniond& camera_from_world) {

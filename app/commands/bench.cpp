@@ -16,8 +16,8 @@
 #include "config/error.h"
 #include "geometry/robust.h"
 #include "hal/replay/replay_camera.h"
+#include "hal/sim/random_scene.h"
 #include "hal/sim/scene.h"
-#include "hal/sim/sim_camera.h"
 #include "hal/sim/virtual_clock.h"
 
 namespace lumibox::app {
@@ -25,20 +25,29 @@ namespace {
 
 constexpr const char* kScene = "toy";
 
-bench::Footage film_scene(std::int64_t frames) {
-  const auto scene = hal::load_scene(find_scene(kScene));
-  hal::VirtualClock clock;
-  hal::SimCamera camera(scene, clock);
-  camera.start();
-  bench::Footage footage = bench::film(std::string("simulated ") + kScene, camera, clock, frames);
-  for (const bench::Footage::Frame& frame : footage.frames) {
-    const double time_s = 1e-9 * static_cast<double>(frame.timestamp_ns);
-    footage.truth.push_back({time_s, scene->world_from_camera(time_s)});
-  }
-  return footage;
+/// Footage that is judged together: table and plot have the medians over all of it.
+struct Group {
+  std::string name;
+  std::vector<bench::Footage> footages;
+};
+
+Group film_toy(std::int64_t frames) {
+  const std::string name = std::string("simulated ") + kScene;
+  return {name, {bench::film_scene(name, hal::load_scene(find_scene(kScene)), frames)}};
 }
 
-bench::Footage film_sequence(const std::filesystem::path& path, std::int64_t frames) {
+Group draw_scenes(const SeedRange& seeds, std::int64_t frames) {
+  Group group{fmt::format("random scenes {} to {}", seeds.first, seeds.last), {}};
+  Progress progress("filming random scenes", seeds.last - seeds.first + 1);
+  for (std::uint32_t seed = seeds.first; seed <= seeds.last; ++seed) {
+    const auto scene = hal::make_scene(hal::sim::random_scene({seed, {}, {}, {}}));
+    group.footages.push_back(bench::film_scene(fmt::format("random {}", seed), scene, frames));
+    progress.show(seed - seeds.first + 1);
+  }
+  return group;
+}
+
+Group film_sequence(const std::filesystem::path& path, std::int64_t frames) {
   const hal::Sequence sequence = hal::open_sequence(path);
   hal::VirtualClock clock;
   hal::ReplayCamera camera(sequence, clock, hal::Pacing::Lockstep);
@@ -46,7 +55,7 @@ bench::Footage film_sequence(const std::filesystem::path& path, std::int64_t fra
   const std::filesystem::path name = path.has_filename() ? path : path.parent_path();
   bench::Footage footage = bench::film(name.filename().string(), camera, clock, frames);
   footage.truth = sequence.ground_truth;
-  return footage;
+  return {footage.name, {footage}};
 }
 
 /// Measurements go to the file one by one, so that a run that is broken off keeps what it has.
@@ -64,41 +73,90 @@ class Lines {
   std::ofstream stream_;
 };
 
-/// The medians of a variation's runs.
-bench::SweepPoint median_of(const bench::Variation& variation,
-                            const std::vector<bench::TrackingResult>& runs) {
-  std::vector<double> ms;
-  std::vector<double> errors;
-  std::vector<double> shares;
-  std::vector<double> mapping_ms;
+/// The medians of a variation over its runs.
+struct Medians {
+  double tracker_ms = 0.0;  ///< of a frame, by the tracker's processor time
+  double mapper_ms = 0.0;   ///< per frame
+  double final_ms = 0.0;    ///< of the final adjustment
+  std::optional<double> live;
+  std::optional<double> refined;
+  double tracked_share = 0.0;
+};
+
+std::optional<double> median_if_any(const std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  return geometry::median(values);
+}
+
+Medians median_of(const std::vector<bench::TrackingResult>& runs) {
+  std::vector<double> tracker, mapper, final_adjustment, live, refined, shares;
   for (const bench::TrackingResult& run : runs) {
-    ms.push_back(run.cpu_ms.median);
-    shares.push_back(static_cast<double>(run.tracked) / static_cast<double>(run.frames));
-    mapping_ms.push_back(run.mapping_ms / static_cast<double>(run.frames));
-    if (run.live) errors.push_back(run.live->percent);
+    const auto frames = static_cast<double>(run.frames);
+    tracker.push_back(run.cpu_ms.median);
+    mapper.push_back(run.mapping_ms / frames);
+    final_adjustment.push_back(run.refinement_ms);
+    shares.push_back(static_cast<double>(run.tracked) / frames);
+    if (run.live) live.push_back(run.live->percent);
+    if (run.refined) refined.push_back(run.refined->percent);
   }
-  bench::SweepPoint point;
-  point.value = variation.value;
-  point.is_default = variation.is_default;
-  point.ms = geometry::median(ms);
-  point.tracked_share = geometry::median(shares);
-  point.mapping_ms = geometry::median(mapping_ms);
-  if (!errors.empty()) point.error = geometry::median(errors);
+  return {geometry::median(tracker), geometry::median(mapper), geometry::median(final_adjustment),
+          median_if_any(live),       median_if_any(refined),   geometry::median(shares)};
+}
+
+bench::SweepPoint point_of(const bench::Variation& variation, const Medians& medians) {
+  bench::SweepPoint point{variation.value, variation.is_default, medians.tracker_ms, medians.live,
+                          medians.tracked_share};
+  if (variation.buys == bench::Buys::Mapper) point.ms = medians.mapper_ms;
+  if (variation.buys == bench::Buys::Final) {
+    point.ms = medians.final_ms;
+    point.error = medians.refined;
+  }
   return point;
 }
 
-void print_head() {
-  std::printf("%-26s %6s %10s %10s %12s %9s\n", "setting", "value", "tracker ms", "mapper ms",
-              "live error %", "tracked %");
+bench::SweepCurve begin_curve(const bench::Variation& variation, const std::string& footage) {
+  switch (variation.buys) {
+    case bench::Buys::Mapper:
+      return {variation.setting,
+              footage,
+              {},
+              "mapper, time per frame [ms]",
+              "live error [% of the extent]"};
+    case bench::Buys::Final:
+      return {
+          variation.setting, footage, {}, "final adjustment [ms]", "final error [% of the extent]"};
+    case bench::Buys::Tracker:
+      break;
+  }
+  return {variation.setting,
+          footage,
+          {},
+          "tracker, median processor time of a frame [ms]",
+          "live error [% of the extent]"};
 }
 
-void print_curve(const bench::SweepCurve& curve) {
-  const auto knee = bench::knee(curve);
-  for (std::size_t i = 0; i < curve.points.size(); ++i) {
-    const bench::SweepPoint& point = curve.points[i];
-    const std::string error = point.error ? fmt::format("{:.4f}", *point.error) : "-";
-    std::printf("%-26s %6g %10.2f %10.2f %12s %9.1f%s%s\n", curve.setting.c_str(), point.value,
-                point.ms, point.mapping_ms, error.c_str(), 100.0 * point.tracked_share,
+/// A setting's curve with all that was measured at each of its points.
+struct Sweep {
+  bench::SweepCurve curve;
+  std::vector<Medians> medians;
+};
+
+void print_head() {
+  std::printf("%-26s %6s %10s %9s %8s %8s %8s %9s\n", "setting", "value", "tracker ms", "mapper ms",
+              "final ms", "live %", "final %", "tracked %");
+}
+
+void print_sweep(const Sweep& sweep) {
+  const auto knee = bench::knee(sweep.curve);
+  const auto text = [](const std::optional<double>& error) {
+    return error ? fmt::format("{:.4f}", *error) : "-";
+  };
+  for (std::size_t i = 0; i < sweep.medians.size(); ++i) {
+    const bench::SweepPoint& point = sweep.curve.points[i];
+    const Medians& m = sweep.medians[i];
+    std::printf("%-26s %6g %10.2f %9.2f %8.0f %8s %8s %9.1f%s%s\n", sweep.curve.setting.c_str(),
+                point.value, m.tracker_ms, m.mapper_ms, m.final_ms, text(m.live).c_str(),
+                text(m.refined).c_str(), 100.0 * m.tracked_share,
                 point.is_default ? "  default" : "", i == knee ? "  knee" : "");
   }
 }
@@ -130,29 +188,39 @@ void measure_default(const bench::Footage& footage, const config::Config& config
               tracker.cpu_ms.median / orb.cpu_ms.median);
 }
 
-std::vector<bench::SweepCurve> sweep(const bench::Footage& footage, const config::Config& config,
-                                     int runs, Lines& lines) {
-  const auto variations = bench::tracking_variations(config.tracking, footage.camera.width());
-  std::vector<bench::SweepCurve> curves;
-  Progress progress("measuring " + footage.name, std::ssize(variations) * runs);
-  std::int64_t done = 0;
-  for (const bench::Variation& variation : variations) {
+/// One value of a setting on all the footage, each run with another seed.
+std::vector<bench::TrackingResult> measure(const Group& group, const bench::Variation& variation,
+                                           int runs, Lines& lines) {
+  std::vector<bench::TrackingResult> results;
+  for (const bench::Footage& footage : group.footages) {
     bench::Footage shown = footage;
     for (int i = 0; i < variation.halvings; ++i) shown = bench::halved(shown);
-    std::vector<bench::TrackingResult> results;
     for (int run = 0; run < runs; ++run) {
       const auto seed = static_cast<std::uint32_t>(run);
       results.push_back(
           bench::measure_tracking(shown, variation.options, bench::Pace::Awaited, seed));
       lines.add(bench::to_json(footage, variation, seed, results.back()));
-      progress.show(++done);
     }
-    if (curves.empty() || curves.back().setting != variation.setting) {
-      curves.push_back({variation.setting, footage.name, {}});
-    }
-    curves.back().points.push_back(median_of(variation, results));
   }
-  return curves;
+  return results;
+}
+
+std::vector<Sweep> sweep(const Group& group, const config::Config& config, int runs, Lines& lines) {
+  const int width = group.footages.front().camera.width();
+  const auto variations = bench::tracking_variations(config.tracking, width);
+  std::vector<Sweep> sweeps;
+  Progress progress("measuring " + group.name, std::ssize(variations));
+  std::int64_t done = 0;
+  for (const bench::Variation& variation : variations) {
+    const Medians medians = median_of(measure(group, variation, runs, lines));
+    if (sweeps.empty() || sweeps.back().curve.setting != variation.setting) {
+      sweeps.push_back({begin_curve(variation, group.name), {}});
+    }
+    sweeps.back().curve.points.push_back(point_of(variation, medians));
+    sweeps.back().medians.push_back(medians);
+    progress.show(++done);
+  }
+  return sweeps;
 }
 
 void bench_tracking(const BenchOptions& options, const config::Config& config) {
@@ -160,24 +228,27 @@ void bench_tracking(const BenchOptions& options, const config::Config& config) {
   const std::filesystem::path plot = options.out / "tracking.svg";
   require_writable(json);
   require_writable(plot);
-  std::vector<bench::Footage> footages;
+  std::vector<Group> groups;
   for (const auto& sequence : options.sequences) {
-    footages.push_back(film_sequence(sequence, options.frames));
+    groups.push_back(film_sequence(sequence, options.frames));
   }
-  footages.push_back(film_scene(options.frames));
+  if (options.random) groups.push_back(draw_scenes(*options.random, options.frames));
+  groups.push_back(film_toy(options.frames));
 
   Lines lines(json);
   std::vector<bench::SweepCurve> curves;
-  for (const bench::Footage& footage : footages) {
-    measure_default(footage, config, lines);
+  for (const Group& group : groups) {
+    for (const bench::Footage& footage : group.footages) measure_default(footage, config, lines);
+    std::printf("%s\n", group.name.c_str());
     print_head();
-    for (const bench::SweepCurve& curve : sweep(footage, config, options.runs, lines)) {
-      print_curve(curve);
-      curves.push_back(curve);
+    for (const Sweep& swept : sweep(group, config, options.runs, lines)) {
+      print_sweep(swept);
+      curves.push_back(swept.curve);
     }
   }
   bench::write_svg(
-      plot, bench::draw_sweep("What accuracy costs: live error over the tracker's time", curves));
+      plot, bench::draw_sweep("What accuracy costs: error over time, one setting varied at a time",
+                              curves));
   std::printf("%s\n%s\n", json.c_str(), plot.c_str());
 }
 

@@ -355,6 +355,20 @@ void add_sim(CLI::App& app) {
       ->required();
 }
 
+SeedRange parse_seeds(const std::string& text) {
+  SeedRange seeds;
+  int read = 0;
+  const int count = std::sscanf(text.c_str(), "%9u-%9u%n", &seeds.first, &seeds.last, &read);
+  // Pictures are kept in memory, 60 MB of each scene.
+  constexpr std::uint32_t kMost = 100;
+  if (count != 2 || static_cast<std::size_t>(read) != text.size() || seeds.last < seeds.first ||
+      seeds.last - seeds.first >= kMost) {
+    throw CLI::ValidationError(
+        "--random", "found " + text + "; expected FIRST-LAST, at most 100 seeds, e.g. 1-8");
+  }
+  return seeds;
+}
+
 void add_bench(CLI::App& app) {
   const auto options = std::make_shared<BenchOptions>();
   CLI::App* command = add_command(
@@ -372,6 +386,11 @@ void add_bench(CLI::App& app) {
                    "a recording to measure besides the simulated toy; may be repeated")
       ->type_name("SEQ")
       ->allow_extra_args(false);
+  command
+      ->add_option_function<std::string>(
+          "--random", [options](const std::string& text) { options->random = parse_seeds(text); },
+          "scenes drawn at random besides; table and plot have the medians over them")
+      ->type_name("FIRST-LAST");
   command->add_option("--frames", options->frames, "how many of each recording or scene, at most")
       ->type_name("N")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{100000}))

@@ -100,13 +100,20 @@ struct SimOptions {
 };
 void simulate(const SimOptions& options);
 
+/// From `first` to `last`, both included.
+struct SeedRange {
+  std::uint32_t first = 0;
+  std::uint32_t last = 0;
+};
+
 struct BenchOptions {
   config::Sources sources;
   std::string what = "tracking";  ///< or "simulation"
   std::filesystem::path out;
   std::vector<std::filesystem::path> sequences;
-  std::int64_t frames = 200;  ///< of each recording or scene, at most
-  int runs = 1;               ///< of each variation, each with a seed of its own
+  std::optional<SeedRange> random;  ///< scenes drawn at random, judged together
+  std::int64_t frames = 200;        ///< of each recording or scene, at most
+  int runs = 1;                     ///< of each variation, each with a seed of its own
 };
 void run_bench(const BenchOptions& options);
 

@@ -101,6 +101,9 @@ TEST(CommandLine, WrongUseExitsWithTwo) {
                                 "render c --views v --out o --mode huge",
                                 "export c --format gltf --out o",
                                 "bench tracking",
+                                "bench tracking --out o --random 8",
+                                "bench tracking --out o --random 8-1",
+                                "bench tracking --out o --random 1-8x",
                                 "bench tracking --out o --runs 0"}) {
     const Outcome outcome = lumibox(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments;

@@ -34,12 +34,11 @@ TEST(SweepPlot, HasADiagramPerSettingAndALinePerFootage) {
   const std::vector<SweepPoint> points{{100, false, 1.0, 5.0, 0.5}, {400, true, 4.0, 1.0}};
   const std::string text = draw_sweep("costs", {{"max_measurements", "walk", points},
                                                 {"max_measurements", "desk", points},
-                                                {"image_width", "walk", points}})
+                                                {"image_width", "walk", points, "my ms", "my %"}})
                                .str();
   EXPECT_THAT(text, AllOf(HasSubstr(">costs<"), HasSubstr(">max_measurements<"),
                           HasSubstr(">image_width<"), HasSubstr(">walk<"), HasSubstr(">desk<")));
-  EXPECT_THAT(text, AllOf(HasSubstr("median processor time of a frame [ms]"),
-                          HasSubstr("[% of the extent]"), HasSubstr(">default<"),
+  EXPECT_THAT(text, AllOf(HasSubstr(">my ms<"), HasSubstr(">my %<"), HasSubstr(">default<"),
                           HasSubstr(">100 (50 %)<"), HasSubstr(">400<")));
 }
 

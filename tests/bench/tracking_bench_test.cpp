@@ -54,15 +54,22 @@ TEST(TrackingVariations, DifferInOneSettingAndHoldTheDefaultOnce) {
   std::map<std::string, int> defaults;
   for (const Variation& v : variations) {
     if (v.is_default) ++defaults[v.setting];
-    const int differences =
-        (v.options.max_measurements != 333) + (v.options.max_features_per_keyframe != 1200) +
-        (v.options.pyramid_levels != 3) + (v.options.local_keyframes != 8) + (v.halvings != 0);
+    const config::Tracking& o = v.options;
+    const int differences = (o.max_measurements != 333) + (o.max_features_per_keyframe != 1200) +
+                            (o.pyramid_levels != 3) + (o.search_radius_px != 4.0) +
+                            (o.pose_iterations != 10) + (o.local_keyframes != 8) +
+                            (o.local_iterations != 5) + (o.global_iterations != 20) +
+                            (v.halvings != 0);
     EXPECT_EQ(differences, v.is_default ? 0 : 1) << v.setting << " " << v.value;
   }
   EXPECT_EQ(defaults, (std::map<std::string, int>{{"max_measurements", 1},
                                                   {"max_features_per_keyframe", 1},
                                                   {"pyramid_levels", 1},
+                                                  {"search_radius_px", 1},
+                                                  {"pose_iterations", 1},
                                                   {"local_keyframes", 1},
+                                                  {"local_iterations", 1},
+                                                  {"global_iterations", 1},
                                                   {"image_width", 1}}));
   const auto order = [](const Variation& a, const Variation& b) {
     return a.setting != b.setting || a.value < b.value;

@@ -113,7 +113,7 @@ TEST(LoopClosing, BothEndsOfADriftedOrbitMeet) {
   EXPECT_LT(map.points().size(), points) << "points known twice become one";
   EXPECT_NEAR(map.keyframe(kAround - 1).scale * orbit.drifted.back().scale, 1.0, 0.05);
   EXPECT_EQ(map.keyframe(0).world_from_camera.translation, orbit.truth[0].translation);
-  for (int i = 0; i < 3; ++i) adjust_globally(camera, map);
+  for (int i = 0; i < 3; ++i) adjust_globally(camera, options(), map);
   EXPECT_LT(error_of(map, orbit.truth), 0.0005);
 }
 
