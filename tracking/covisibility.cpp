@@ -30,7 +30,8 @@ CovisibilityGraph::CovisibilityGraph(const Map& map, int min_shared)
   }
 }
 
-std::vector<Way> CovisibilityGraph::ways_from(KeyframeId start, KeyframeId without) const {
+std::vector<Way> CovisibilityGraph::ways_from(KeyframeId start, double max_step,
+                                              KeyframeId without) const {
   std::vector<Way> ways(steps_.size());
   ways[static_cast<std::size_t>(start)] = {0.0, 0.0};
   using Entry = std::pair<double, KeyframeId>;
@@ -42,6 +43,7 @@ std::vector<Way> CovisibilityGraph::ways_from(KeyframeId start, KeyframeId witho
     const Way here = ways[static_cast<std::size_t>(at)];
     if (length > here.length || at == without) continue;
     for (const Step& step : steps_[static_cast<std::size_t>(at)]) {
+      if (step.way.length > max_step) continue;
       Way& there = ways[static_cast<std::size_t>(step.to)];
       if (here.length + step.way.length < there.length) {
         there = {here.length + step.way.length, here.turn + step.way.turn};

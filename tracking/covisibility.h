@@ -32,8 +32,10 @@ class CovisibilityGraph {
   const std::vector<Edge>& edges() const { return edges_; }
 
   /// The shortest way from `start` to every keyframe, by KeyframeId; infinitely long where there is
-  /// none. Edges at `without` are not gone along.
-  std::vector<Way> ways_from(KeyframeId start, KeyframeId without = -1) const;
+  /// none. Steps longer than `max_step` are not gone, nor does a way go through `without`.
+  std::vector<Way> ways_from(KeyframeId start,
+                             double max_step = std::numeric_limits<double>::infinity(),
+                             KeyframeId without = -1) const;
 
  private:
   struct Step {

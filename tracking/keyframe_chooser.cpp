@@ -44,7 +44,7 @@ bool KeyframeChooser::is_wanted(const MapView& map, const Anchor& anchor,
   const bool refresh =
       found.inliers < kRefreshShare * std::min(nearest.points, options_.max_measurements) &&
       baseline > kMinRefreshBaseline;
-  return parallax || refresh;
+  return parallax || refresh || located_anew_;
 }
 
 std::optional<KeyframeRequest> KeyframeChooser::consider(
@@ -54,6 +54,7 @@ std::optional<KeyframeRequest> KeyframeChooser::consider(
     return std::nullopt;
   }
   frames_since_keyframe_ = 0;
+  located_anew_ = false;
   KeyframeRequest request{anchor.keyframe,
                           anchor.keyframe_from_camera,
                           found.pose.readout_twist,

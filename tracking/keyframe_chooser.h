@@ -28,6 +28,10 @@ class KeyframeChooser {
   /// Notes which of the points expected in a frame were found.
   void note(const MapView& map, const Localisation& found);
 
+  /// The camera was lost and found: the next good frame is to become a keyframe wherever it is. It
+  /// may show a part of the map that the mapper does not know to be near the one before.
+  void located_anew() { located_anew_ = true; }
+
   /// A request if the frame just located well is to become a keyframe. Of a rolling shutter it is
   /// kept back until `complete`.
   std::optional<KeyframeRequest> consider(const MapView& map, const Anchor& anchor,
@@ -52,6 +56,7 @@ class KeyframeChooser {
   geometry::Camera camera_;
   config::Tracking options_;
   int frames_since_keyframe_ = 0;
+  bool located_anew_ = false;
   std::vector<PointEvidence> evidence_;
   std::vector<std::uint32_t> inliers_;  ///< of one frame, by index
   std::optional<Pending> pending_;

@@ -12,11 +12,11 @@
 namespace lumibox::tracking {
 namespace {
 
-constexpr int kConnected = 15;       // points shared by keyframes that hold each other
-constexpr double kSamePixel = 1.5;   // pixels of the level, between sightings of one point
-constexpr double kSameDepth = 0.1;   // share of the depth
-constexpr double kFar = 3.0;         // depths along the map; half an orbit is as much
-constexpr double kRoundabout = 3.0;  // times as long along the map as through the air
+constexpr int kConnected = 15;      // points shared by keyframes that hold each other
+constexpr double kSamePixel = 0.3;  // of the level; corners farther apart are not one point
+constexpr double kSameDepth = 0.1;  // share of the depth
+constexpr double kStep = 0.35;      // depths: 20 degrees around what is seen
+constexpr double kFar = 1.5;        // depths along the walk, several times as far as it is across
 
 /// Nodes by KeyframeId; culled keyframes are fixed nodes without edges.
 PoseGraph make_graph(const Map& map, const Loop& loop) {
@@ -118,20 +118,18 @@ bool close_loop(Map& map, const Loop& loop) {
 }
 
 bool has_met_itself(const Map& map, KeyframeId id) {
-  const std::vector<KeyframeId> neighbours =
-      covisible_keyframes(map, id, static_cast<int>(map.keyframes().size()));
-  if (neighbours.empty()) return false;
+  const std::vector<KeyframeId> nearest = covisible_keyframes(map, id, 1);
+  if (nearest.empty()) return false;
   const CovisibilityGraph graph(map, kConnected);
-  const std::vector<Way> ways = graph.ways_from(neighbours.front(), id);
-  const Eigen::Vector3d here = map.keyframe(neighbours.front()).world_from_camera.translation;
+  const double depth = map.keyframe(id).median_depth;
+  const std::vector<Way> ways = graph.ways_from(nearest.front(), kStep * depth, id);
+  const Eigen::Vector3d here = map.keyframe(id).world_from_camera.translation;
   for (const auto& edge : graph.edges()) {
     if (edge.a != id && edge.b != id) continue;
     const KeyframeId other = edge.a == id ? edge.b : edge.a;
     const double length = ways[static_cast<std::size_t>(other)].length;
     const double direct = (map.keyframe(other).world_from_camera.translation - here).norm();
-    if (std::isfinite(length) && length > kFar * map.keyframe(id).median_depth &&
-        length > kRoundabout * direct)
-      return true;
+    if (direct < kStep * depth && std::isfinite(length) && length > kFar * depth) return true;
   }
   return false;
 }

@@ -17,8 +17,9 @@ bool close_loop(Map& map, const Loop& loop);
 /// stays. Returns how many points went.
 int merge_duplicates(Map& map, KeyframeId id);
 
-/// Whether keyframe `id` has just tied together parts of the map that were far apart along all that
-/// was measured, and near in truth: an orbit that came back to its own points.
+/// Whether keyframe `id` sees points of another that is near, but was far along the walk, small
+/// step by small step, until now: an orbit that came back to its own points, which needs no
+/// correction but is a loop all the same. Walking back the way one came is none.
 bool has_met_itself(const Map& map, KeyframeId id);
 
 }  // namespace lumibox::tracking

@@ -13,7 +13,8 @@ namespace {
 
 constexpr int kConnected = 15;         // points shared by keyframes that belong together
 constexpr int kNear = 10;              // keyframes around one that are its part of the map
-constexpr std::size_t kShortlist = 4;  // keyframes matched in full
+constexpr std::size_t kShortlist = 3;  // keyframes that look alike, and as many that are near
+constexpr double kSight = 0.5;  // depths, and radians, between keyframes that show the same place
 constexpr std::size_t kMinPairs = 10;  // points known twice, for the scale between the parts
 constexpr double kSamePixel = 2.0;     // pixels of the level, of a point known twice
 constexpr double kAgreeLength = 0.1;   // of the depth: ties that say the same
@@ -110,13 +111,11 @@ bool is_plausible(const Drift& drift, const Way& way) {
 std::optional<Loop> LoopDetector::find(const Map& map, KeyframeId id, std::size_t min_ties) {
   const MapView view = map.view(0);
   index_.update(view);
-  const std::vector<KeyframeId> alike = candidates(map, id);
-  if (alike.empty()) return std::nullopt;
   const std::vector<Way> ways = CovisibilityGraph(map, kConnected).ways_from(id);
   const geometry::Pose& present = map.keyframe(id).world_from_camera;
   std::vector<Place> places;
   std::vector<PossiblePlace> possible;
-  for (const KeyframeId then : alike) {
+  for (const KeyframeId then : candidates(map, id, ways)) {
     auto place = locate(map, view, id, then);
     if (!place) continue;
     const geometry::Similarity& there = place->tie.world_from_keyframe;
@@ -133,33 +132,66 @@ std::optional<Loop> LoopDetector::find(const Map& map, KeyframeId id, std::size_
   return loop;
 }
 
-/// Keyframes of other parts of the map that look like `id` at least as much as those around it do.
-std::vector<KeyframeId> LoopDetector::candidates(const Map& map, KeyframeId id) const {
+/// Keyframes of other parts of the map in which `id` could be, as far as tracking can have drifted:
+/// those that look most like it, and those that would be nearest if it had not. Small images alone
+/// tell little where an object fills the picture on all sides.
+std::vector<KeyframeId> LoopDetector::candidates(const Map& map, KeyframeId id,
+                                                 const std::vector<Way>& ways) const {
   const std::set<KeyframeId> connected = connected_to(map, id);
-  const SmallImage& picture = index_.small_image(id);
-  double worst = 0.0;
-  for (const KeyframeId k : covisible_keyframes(map, id, kNear)) {
-    worst = std::max(worst, index_.difference(picture, k));
+  const Map::Keyframe& here = map.keyframe(id);
+  std::vector<std::pair<double, KeyframeId>> near;
+  std::set<KeyframeId> possible;
+  for (KeyframeId k = 0; k < static_cast<KeyframeId>(ways.size()); ++k) {
+    if (map.keyframe(k).culled() || connected.contains(k)) continue;
+    const geometry::Pose& there = map.keyframe(k).world_from_camera;
+    const double length = (there.translation - here.world_from_camera.translation).norm();
+    const double turn = there.rotation.angularDistance(here.world_from_camera.rotation);
+    const double depth = here.median_depth;
+    const Drift least{std::max(0.0, length - kSight * depth), std::max(0.0, turn - kSight), 1.0};
+    if (!is_plausible(least, ways[static_cast<std::size_t>(k)])) continue;
+    possible.insert(k);
+    near.emplace_back(length / depth + turn, k);
   }
-  return index_.most_alike(picture, kShortlist, [&](KeyframeId k) {
-    return !connected.contains(k) && index_.difference(picture, k) <= worst;
-  });
+  std::vector<KeyframeId> chosen = index_.most_alike(
+      index_.small_image(id), kShortlist, [&](KeyframeId k) { return possible.contains(k); });
+  std::sort(near.begin(), near.end());
+  for (std::size_t i = 0; i < std::min(kShortlist, near.size()); ++i) {
+    if (std::find(chosen.begin(), chosen.end(), near[i].second) == chosen.end())
+      chosen.push_back(near[i].second);
+  }
+  return chosen;
 }
 
 std::optional<LoopDetector::Place> LoopDetector::locate(const Map& map, const MapView& view,
                                                         KeyframeId id, KeyframeId then) {
-  const DescribedCorners& corners = index_.corners(view, id);
-  const auto pose =
-      pose_from_matches(camera_, view, corners, index_.match(view, then, corners), kSeed);
-  if (!pose) return std::nullopt;
   MapView part = part_around(map, then, id);
-  const Localisation* found =
-      localiser_.localise(part, *map.keyframe(id).pyramid, {*pose, map.keyframe(id).readout_twist});
-  if (!found || !is_verified(*found)) return std::nullopt;
-  const auto scale = scale_between(map, id, *found);
-  if (!scale) return std::nullopt;
-  Loop::Tie tie = make_tie(id, *scale, part, *found);
-  return Place{then, std::move(part), std::move(tie)};
+  for (const geometry::Pose& guess : guesses(map, view, id, then)) {
+    const Localisation* found = localiser_.localise(part, *map.keyframe(id).pyramid,
+                                                    {guess, map.keyframe(id).readout_twist});
+    if (!found || !is_verified(*found)) continue;
+    const auto scale = scale_between(map, id, *found);
+    if (!scale) continue;
+    Loop::Tie tie = make_tie(id, *scale, part, *found);
+    return Place{then, std::move(part), std::move(tie)};
+  }
+  return std::nullopt;
+}
+
+/// Where keyframe `id` may be if it shows what `then` does: by descriptors and P3P, and where
+/// `then` is, turned so that their small images agree.
+std::vector<geometry::Pose> LoopDetector::guesses(const Map& map, const MapView& view,
+                                                  KeyframeId id, KeyframeId then) {
+  std::vector<geometry::Pose> poses;
+  const DescribedCorners& corners = index_.corners(view, id);
+  const auto matched =
+      pose_from_matches(camera_, view, corners, index_.match(view, then, corners), kSeed);
+  if (matched) poses.push_back(*matched);
+  const Eigen::Quaterniond id_from_then =
+      estimate_rotation(camera_, index_.small_image(then), index_.small_image(id))
+          .current_from_last;
+  poses.push_back(geometry::Pose(id_from_then, Eigen::Vector3d::Zero()) *
+                  map.keyframe(then).world_from_camera.inverse());
+  return poses;
 }
 
 /// The tie of `id` and those of the keyframes around it that say the same.

@@ -168,6 +168,7 @@ class Tracker::Impl {
     lost_ = false;
     jumped_ = true;
     ++relocalisations_;
+    chooser_.located_anew();
     return found;
   }
 

