@@ -40,16 +40,10 @@ struct Drift {
 bool is_plausible(const Drift& drift, const Way& way);
 
 /// Finds places that are in the map twice: keyframes far apart in the map that look alike,
-<<<<<<< HEAD
-/// descriptor matches to the points of the one in the other, P3P, then the search that tracks
-/// frames (Localiser), from several keyframes; accepted if they agree, tracking can have drifted so
-/// far on the way between, and no other place explains the picture nearly as well.
-=======
 /// descriptor matches to the points of the one in the other and P3P, or the same place turned as
 /// the small images say; then the search that tracks frames (localise), from several keyframes;
 /// accepted if they agree, tracking can have drifted so far on the way between, and no other place
 /// explains the picture nearly as well.
->>>>>>> 4d45ca7 (An orbit that meets its own points counts as a closed loop; a lost camera found again asks for a keyframe)
 class LoopDetector {
  public:
   LoopDetector(const geometry::Camera& camera, const config::Tracking& options)
@@ -64,13 +58,9 @@ class LoopDetector {
   std::vector<KeyframeId> candidates(const Map& map, KeyframeId id,
                                      const std::vector<Way>& ways) const;
   std::optional<Place> locate(const Map& map, const MapView& view, KeyframeId id, KeyframeId then);
-<<<<<<< HEAD
-  std::vector<Loop::Tie> ties(const Map& map, KeyframeId id, const Place& place);
-=======
   std::vector<geometry::Pose> guesses(const Map& map, const MapView& view, KeyframeId id,
                                       KeyframeId then);
-  std::vector<Loop::Tie> ties(const Map& map, KeyframeId id, const Place& place) const;
->>>>>>> 4d45ca7 (An orbit that meets its own points counts as a closed loop; a lost camera found again asks for a keyframe)
+  std::vector<Loop::Tie> ties(const Map& map, KeyframeId id, const Place& place);
 
   geometry::Camera camera_;
   Localiser localiser_;

@@ -15,6 +15,7 @@ constexpr int kTrialFrames = 20;  // searches before a point's record counts
 constexpr double kMinFoundShare = 0.25;
 constexpr std::size_t kMinTies = 3;      // keyframes that must agree on a loop
 constexpr std::size_t kMinLastTies = 2;  // where no others follow
+constexpr KeyframeId kLoopKeyframes = 10;
 constexpr KeyframeId kLastKeyframes = 3;
 
 }  // namespace
@@ -145,13 +146,16 @@ void Mapper::integrate(const KeyframeRequest& request) {
 
 /// Looks whether keyframe `id` shows a place that another part of the map shows too.
 bool Mapper::close_loop_at(KeyframeId id, std::size_t min_ties) {
-  bool met = has_met_itself(map_, id);
+  // A tie takes some keyframes to grow: they are one loop.
+  bool met = id - last_loop_ >= kLoopKeyframes && has_met_itself(map_, id);
   if (!met) {
     const auto loop = loops_.find(map_, id, min_ties);
     met = loop && close_loop(map_, *loop);
   }
-  if (met) ++loops_closed_;
-  return met;
+  if (!met) return false;
+  ++loops_closed_;
+  last_loop_ = id;
+  return true;
 }
 
 void Mapper::weigh(const std::vector<PointEvidence>& evidence) {

@@ -80,6 +80,7 @@ class Mapper {
   Map map_;  // touched only by whoever runs the mapper
   LoopDetector loops_;
   int loops_closed_ = 0;
+  KeyframeId last_loop_ = 0;  ///< keyframe at which one closed
   std::uint64_t revision_ = 0;
 
   mutable std::mutex mutex_;  // guards what follows
