@@ -161,7 +161,7 @@ ceres::Solver::Options solver_options(int max_iterations) {
   options.max_num_iterations = max_iterations;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
-  options.function_tolerance = getenv("FT") ? atof(getenv("FT")) : 1e-5;
+  options.function_tolerance = 1e-5;
   return options;
 }
 

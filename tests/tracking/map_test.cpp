@@ -54,6 +54,24 @@ TEST_F(MapTest, DepthIsTheMedianAndScales) {
   EXPECT_EQ(map_.keyframe(2).world_from_camera.translation.x(), 1.0);
 }
 
+TEST_F(MapTest, ACulledKeyframeMovesWithTheOneItIsTiedTo) {
+  map_.cull_keyframe(2, 1);
+  EXPECT_TRUE(map_.view(1).keyframes[2].culled());
+  EXPECT_EQ(map_.point(0).sightings.size(), 2U);
+  const geometry::Similarity before = map_.world_from_keyframe(2);
+  EXPECT_EQ(before.rigid.translation, Eigen::Vector3d(2.0, 0.0, 0.0));
+  map_.cull_keyframe(1, 0);
+  EXPECT_FALSE(map_.has_point(0)) << "one sighting is none";
+  const geometry::Pose moved(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0.0, 5.0, 0.0));
+  map_.move_keyframe(0, {2.0, moved});
+  for (const KeyframeId id : {1, 2}) {
+    EXPECT_EQ(map_.keyframe(id).tied_to, 0);
+    EXPECT_EQ(map_.view(2).keyframes[static_cast<std::size_t>(id)].world_from_camera.translation,
+              Eigen::Vector3d(2.0 * id, 5.0, 0.0));
+    EXPECT_EQ(map_.world_from_keyframe(id).scale, 2.0);
+  }
+}
+
 TEST_F(MapTest, AViewHoldsEverythingOnce) {
   const MapView view = map_.view(17);
   EXPECT_EQ(view.revision, 17U);
