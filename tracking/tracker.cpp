@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "tracking/initialiser.h"
+#include "tracking/judgement.h"
 #include "tracking/keyframe_chooser.h"
 #include "tracking/map_tracking.h"
 #include "tracking/mapper.h"
@@ -15,12 +16,6 @@
 namespace lumibox::tracking {
 namespace {
 
-constexpr int kMinInliers = 20;      // fewer do not hold six degrees of freedom
-constexpr int kMinGoodInliers = 40;  // fewer are not good enough to record with
-// Of the camera's place, in its worst direction, by the depth of what it sees. What the errors of
-// the map add is ten to twenty times this, so that at most some 2 % are left, or a degree at the
-// subject: a quarter of the gate between two perspectives.
-constexpr double kMaxPositionSigma = 0.0015;
 constexpr double kMinContrast = 6.0;  // grey levels; a dark or covered lens shows less
 constexpr int kTurnTries = 15;        // frames from one try to relocalise to the next
 
@@ -151,7 +146,7 @@ class Tracker::Impl {
           motion_.readout_twist(camera_from_world_, found->pose.camera_from_world));
     }
     // While the camera is turned away the map may show by chance, or from elsewhere.
-    if (turn_.active() && !(found && shows_map(*found))) {
+    if (turn_.active() && !(found && trust_in(*found, options_) >= Trust::Place)) {
       return ++frames_turned_ % kTurnTries == 0 ? relocalise(frame) : nullptr;
     }
     return found;
@@ -181,39 +176,28 @@ class Tracker::Impl {
     return found;
   }
 
-  /// The camera sees what the map says it should.
-  bool shows_map(const Localisation& found) const {
-    return found.inliers >= kMinGoodInliers && found.found_share() >= options_.lost_inlier_share;
-  }
-
-  /// And what it sees holds the pose well enough to record with.
-  bool is_good(const Localisation& found) const {
-    return shows_map(found) && found.position_sigma < kMaxPositionSigma * found.median_depth;
-  }
-
   /// Decides from what was found how far the pose can be trusted, and remembers it.
   void judge(const Localisation* found, const std::shared_ptr<const Pyramid>& frame,
              TrackedFrame& result) {
     result.reason = motion_.picture().contrast() < kMinContrast ? TrackingReason::TooDarkOrBlurred
                     : lost_                                     ? TrackingReason::Relocalising
                                                                 : TrackingReason::TooFewPointsFound;
-    const bool usable = found && found->inliers >= kMinInliers;
-    const bool shown = usable && shows_map(*found);
+    const Trust trust = found ? trust_in(*found, options_) : Trust::None;
+    const bool shown = trust >= Trust::Place;
     if (!shown && follow_turn(frame, result)) return;
     if (shown) {
       turn_.stop();
-    } else {
+    } else if (!lost_) {
       relocaliser_.prepare(*map_, motion_.picture());
     }
     bad_frames_ = shown ? 0 : bad_frames_ + 1;
     if (bad_frames_ >= options_.lost_after_frames) lost_ = true;
-    if (lost_ || !usable) {
+    if (lost_ || trust == Trust::None) {
       result.state = lost_ ? TrackingState::Lost : TrackingState::Poor;
       motion_.interrupted();
       last_shown_.reset();
       return;
     }
-    const bool good = is_good(*found);
     if (jumped_) {
       motion_.interrupted();
     } else {
@@ -225,7 +209,8 @@ class Tracker::Impl {
     chooser_.note(*map_, *found);
     last_shown_ = shown ? frame : nullptr;
     if (shown) last_pose_ns_ = motion_.timestamp_ns();
-    report_pose(good ? TrackingState::Good : TrackingState::Poor, found->inliers, result);
+    report_pose(trust == Trust::Full ? TrackingState::Good : TrackingState::Poor, found->inliers,
+                result);
   }
 
   /// Where the map no longer shows, a turn on the spot may explain the picture: the pose then is
