@@ -1,6 +1,7 @@
 #pragma once
 
 #include "config/config.h"
+#include "geometry/pose.h"
 #include "tracking/map_tracking.h"
 
 namespace lumibox::tracking {
@@ -16,5 +17,10 @@ enum class Trust {
 /// Judges by the number of points found, their share of those expected, and how well together they
 /// hold the camera's place.
 Trust trust_in(const Localisation& found, const config::Tracking& options);
+
+/// Whether a hand that went on as it did could be where it was found instead, one frame later.
+/// Somebody walking past covers the map, and moves the small images: what little then agrees on a
+/// pose may agree on any.
+bool is_within_reach(const geometry::Pose& found_from_expected, double depth);
 
 }  // namespace lumibox::tracking

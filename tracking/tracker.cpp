@@ -176,13 +176,22 @@ class Tracker::Impl {
     return found;
   }
 
+  /// What is trusted little is not trusted at all where no hand can be.
+  Trust trusted(const Localisation& found) const {
+    const Trust trust = trust_in(found, options_);
+    if (trust != Trust::Little || jumped_) return trust;
+    const geometry::Pose found_from_expected =
+        found.pose.camera_from_world * motion_.expect(camera_from_world_).inverse();
+    return is_within_reach(found_from_expected, found.median_depth) ? trust : Trust::None;
+  }
+
   /// Decides from what was found how far the pose can be trusted, and remembers it.
   void judge(const Localisation* found, const std::shared_ptr<const Pyramid>& frame,
              TrackedFrame& result) {
     result.reason = motion_.picture().contrast() < kMinContrast ? TrackingReason::TooDarkOrBlurred
                     : lost_                                     ? TrackingReason::Relocalising
                                                                 : TrackingReason::TooFewPointsFound;
-    const Trust trust = found ? trust_in(*found, options_) : Trust::None;
+    const Trust trust = found ? trusted(*found) : Trust::None;
     const bool shown = trust >= Trust::Place;
     if (!shown && follow_turn(frame, result)) return;
     if (shown) {

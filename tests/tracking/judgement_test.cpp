@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/rotation.h"
+
 namespace lumibox::tracking {
 namespace {
 
@@ -45,6 +47,17 @@ TEST(Judgement, FewPointsAreTrustedLittleAndAHandfulNotAtAll) {
 // A localisation without a single inlier has no depth either.
 TEST(Judgement, NothingFoundIsNotTrusted) {
   EXPECT_EQ(trust_in({}, {}), Trust::None);
+}
+
+// The expected pose is the hand's at constant velocity, a metre and a half from what it sees.
+TEST(Judgement, AHandDoesNotJump) {
+  const geometry::Pose tremor(geometry::exp_so3({0.0, 0.02, 0.0}), {0.02, 0.0, 0.0});
+  EXPECT_TRUE(is_within_reach(tremor, 1.5));
+  const geometry::Pose moved(Eigen::Quaterniond::Identity(), {0.15, 0.0, 0.0});
+  EXPECT_FALSE(is_within_reach(moved, 1.5));
+  EXPECT_TRUE(is_within_reach(moved, 15.0));  // of something far away that is nothing
+  const geometry::Pose turned(geometry::exp_so3({0.0, 0.15, 0.0}), Eigen::Vector3d::Zero());
+  EXPECT_FALSE(is_within_reach(turned, 1.5));
 }
 
 }  // namespace
