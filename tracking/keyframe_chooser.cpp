@@ -16,7 +16,13 @@ constexpr double kMinRefreshBaseline = 0.012;  // of the depth: without a baseli
 }  // namespace
 
 KeyframeChooser::KeyframeChooser(const geometry::Camera& camera, const config::Tracking& options)
-    : camera_(camera), options_(options) {}
+    : camera_(camera), options_(options) {
+  reserve_evidence();
+}
+
+void KeyframeChooser::reserve_evidence() {
+  evidence_.reserve(kMaxEvidence + static_cast<std::size_t>(options_.max_measurements));
+}
 
 void KeyframeChooser::note(const MapView& map, const Localisation& found) {
   inliers_.clear();
@@ -61,6 +67,7 @@ std::optional<KeyframeRequest> KeyframeChooser::consider(
                           frame,
                           {},
                           std::exchange(evidence_, {})};
+  reserve_evidence();
   for (const Measurement& m : found.measurements) {
     if (m.inlier) {
       request.sightings.emplace_back(map.points[m.point].id, Sighting{-1, m.pixel, m.level});

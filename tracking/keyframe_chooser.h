@@ -44,6 +44,7 @@ class KeyframeChooser {
   std::optional<KeyframeRequest> complete(const MotionModel& motion);
 
  private:
+  void reserve_evidence();
   bool is_wanted(const MapView& map, const Anchor& anchor, const Localisation& found) const;
 
   struct Pending {

@@ -6,6 +6,7 @@
 #include <opencv2/features2d.hpp>
 
 #include "geometry/absolute_pose.h"
+#include "hal/newer_processors.h"
 #include "tracking/opencv_view.h"
 
 namespace lumibox::tracking {
@@ -116,8 +117,9 @@ const std::vector<PointId>& KeyframeIndex::points(const MapView& map, KeyframeId
   return described_entry(map, keyframe).points;
 }
 
-std::vector<PointMatch> KeyframeIndex::match(const MapView& map, KeyframeId keyframe,
-                                             const DescribedCorners& here) {
+LUMIBOX_FOR_NEWER_PROCESSORS  // which count bits in one instruction
+    std::vector<PointMatch>
+    KeyframeIndex::match(const MapView& map, KeyframeId keyframe, const DescribedCorners& here) {
   const Entry& known = described_entry(map, keyframe);
   std::vector<PointMatch> matches;
   for (std::size_t i = 0; i < here.descriptors.size(); ++i) {

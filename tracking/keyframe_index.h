@@ -61,6 +61,8 @@ class KeyframeIndex {
   std::vector<PointMatch> match(const MapView& map, KeyframeId keyframe,
                                 const DescribedCorners& here);
 
+  bool is_described(KeyframeId keyframe) const { return entry(keyframe).corners.has_value(); }
+
   /// Keyframes described so far.
   int described() const;
 

@@ -21,9 +21,13 @@ void MotionModel::next_frame(const Pyramid& picture, std::int64_t timestamp_ns) 
   timestamp_ns_ = timestamp_ns;
 }
 
+geometry::Pose MotionModel::expect(const geometry::Pose& last_from_world) const {
+  return geometry::exp_se3(interval_s_ * velocity_.value_or(geometry::Vector6d::Zero())) *
+         last_from_world;
+}
+
 geometry::Pose MotionModel::current_from_last() const {
-  const geometry::Pose steady =
-      geometry::exp_se3(interval_s_ * velocity_.value_or(geometry::Vector6d::Zero()));
+  const geometry::Pose steady = expect({});
   const RotationPrior prior = estimate_rotation(camera_, last_, current_);
   const double disagreement = prior.current_from_last.angularDistance(steady.rotation);
   if (prior.residual < 1e8 && disagreement > kAgreement) {

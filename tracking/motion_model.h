@@ -25,6 +25,9 @@ class MotionModel {
   /// Pose of the new frame, from that of the last.
   geometry::FramePose predict(const geometry::Pose& last_from_world) const;
 
+  /// The same if the camera went on as it did, whatever the picture shows.
+  geometry::Pose expect(const geometry::Pose& last_from_world) const;
+
   /// The motion during the new frame's readout, now that its pose is known: that since the last
   /// frame, and as much change as there was before, for half an interval lies between the two.
   geometry::Vector6d readout_twist(const geometry::Pose& last_from_world,

@@ -1,10 +1,15 @@
 #include "tracking/pyramid.h"
 
+#include <algorithm>
+#include <atomic>
+
 namespace lumibox::tracking {
 namespace {
 
-hal::Image halve(const hal::Image& source) {
-  hal::Image half(source.width() / 2, source.height() / 2, 1);
+void halve(const hal::Image& source, hal::Image& half) {
+  if (half.width() != source.width() / 2 || half.height() != source.height() / 2) {
+    half = hal::Image(source.width() / 2, source.height() / 2, 1);
+  }
   for (int y = 0; y < half.height(); ++y) {
     const std::uint8_t* above = source.row(2 * y);
     const std::uint8_t* below = source.row(2 * y + 1);
@@ -14,17 +19,30 @@ hal::Image halve(const hal::Image& source) {
       out[x] = static_cast<std::uint8_t>((sum + 2) / 4);
     }
   }
-  return half;
 }
 
 }  // namespace
 
-Pyramid::Pyramid(const hal::Image& gray, int levels) {
-  images_.reserve(static_cast<std::size_t>(levels));
-  images_.push_back(gray);
-  while (this->levels() < levels && images_.back().width() > 1 && images_.back().height() > 1) {
-    images_.push_back(halve(images_.back()));
+void Pyramid::assign(const hal::Image& gray, int levels) {
+  int count = 1;
+  for (int side = std::min(gray.width(), gray.height()); count < levels && side > 1; side /= 2) {
+    ++count;
   }
+  images_.resize(static_cast<std::size_t>(count));
+  images_.front() = gray;
+  for (std::size_t i = 1; i < images_.size(); ++i) halve(images_[i - 1], images_[i]);
+}
+
+std::shared_ptr<const Pyramid> PyramidPool::make(const hal::Image& gray, int levels) {
+  auto free = std::ranges::find_if(pyramids_, [](const auto& p) { return p.use_count() == 1; });
+  if (free == pyramids_.end()) {
+    pyramids_.push_back(std::make_shared<Pyramid>());
+    free = pyramids_.end() - 1;
+  }
+  // Whoever read it last, perhaps on another thread, is done before it is written to.
+  std::atomic_thread_fence(std::memory_order_acquire);
+  (*free)->assign(gray, levels);
+  return *free;
 }
 
 }  // namespace lumibox::tracking

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "hal/image.h"
@@ -13,13 +14,26 @@ namespace lumibox::tracking {
 class Pyramid {
  public:
   Pyramid() = default;
-  Pyramid(const hal::Image& gray, int levels);
+  Pyramid(const hal::Image& gray, int levels) { assign(gray, levels); }
+
+  /// Becomes another picture's, in the memory that it has.
+  void assign(const hal::Image& gray, int levels);
 
   int levels() const { return static_cast<int>(images_.size()); }
   const hal::Image& level(int index) const { return images_[static_cast<std::size_t>(index)]; }
 
  private:
   std::vector<hal::Image> images_;
+};
+
+/// Makes pyramids in the memory of those that nobody holds any more: a frame that does not become a
+/// keyframe needs none of its own.
+class PyramidPool {
+ public:
+  std::shared_ptr<const Pyramid> make(const hal::Image& gray, int levels);
+
+ private:
+  std::vector<std::shared_ptr<Pyramid>> pyramids_;
 };
 
 /// Position on a level of a level-0 pixel, and back. Pixel centres are integers on every level, so

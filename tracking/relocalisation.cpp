@@ -13,12 +13,6 @@ constexpr double kAlike = 0.6;      // of the inliers of the best place
 constexpr double kSameTurn = 0.35;  // radians; nearer places are one
 constexpr double kSamePlace = 0.2;  // depths
 
-bool is_same(const PossiblePlace& a, const PossiblePlace& b, double depth) {
-  const geometry::Pose motion = a.camera_from_world * b.camera_from_world.inverse();
-  return motion.translation.norm() < kSamePlace * depth &&
-         motion.rotation.angularDistance(Eigen::Quaterniond::Identity()) < kSameTurn;
-}
-
 bool is_reachable(const PossiblePlace& place, const LastSeen& last) {
   const Eigen::Vector3d there = place.camera_from_world.inverse().translation;
   const Eigen::Vector3d here = last.camera_from_world.inverse().translation;
@@ -26,6 +20,13 @@ bool is_reachable(const PossiblePlace& place, const LastSeen& last) {
 }
 
 }  // namespace
+
+bool is_same_place(const geometry::Pose& a_from_world, const geometry::Pose& b_from_world,
+                   double depth) {
+  const geometry::Pose motion = a_from_world * b_from_world.inverse();
+  return motion.translation.norm() < kSamePlace * depth &&
+         motion.rotation.angularDistance(Eigen::Quaterniond::Identity()) < kSameTurn;
+}
 
 std::optional<std::size_t> choose_place(std::span<const PossiblePlace> places,
                                         const LastSeen& last) {
@@ -36,9 +37,9 @@ std::optional<std::size_t> choose_place(std::span<const PossiblePlace> places,
   }
   if (!best) return std::nullopt;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const bool rival = is_reachable(places[i], last) &&
-                       places[i].inliers > kAlike * places[*best].inliers &&
-                       !is_same(places[i], places[*best], last.depth);
+    const bool rival =
+        is_reachable(places[i], last) && places[i].inliers > kAlike * places[*best].inliers &&
+        !is_same_place(places[i].camera_from_world, places[*best].camera_from_world, last.depth);
     if (rival) return std::nullopt;
   }
   return best;

@@ -22,6 +22,10 @@ struct LastSeen {
   double seconds_ago = 0.0;
 };
 
+/// Whether two estimates are of one place, in a scene of that depth.
+bool is_same_place(const geometry::Pose& a_from_world, const geometry::Pose& b_from_world,
+                   double depth);
+
 /// Index of the place to believe: that with most points, unless a hand could not have got there in
 /// the time, or another place explains the picture nearly as well. A label that repeats around a
 /// can shows its front on its back; what was seen last tells them apart, and where that does not,

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "tracking/initialiser.h"
+#include "tracking/judgement.h"
 #include "tracking/keyframe_chooser.h"
 #include "tracking/map_tracking.h"
 #include "tracking/mapper.h"
@@ -15,8 +16,6 @@
 namespace lumibox::tracking {
 namespace {
 
-constexpr int kMinInliers = 20;       // fewer do not hold six degrees of freedom
-constexpr int kMinGoodInliers = 40;   // fewer are not good enough to record with
 constexpr double kMinContrast = 6.0;  // grey levels; a dark or covered lens shows less
 constexpr int kTurnTries = 15;        // frames from one try to relocalise to the next
 
@@ -40,7 +39,7 @@ class Tracker::Impl {
     TrackedFrame result;
     result.index = index;
     result.timestamp_ns = timestamp_ns;
-    const auto frame = std::make_shared<const Pyramid>(gray, options_.pyramid_levels);
+    const auto frame = pyramids_.make(gray, options_.pyramid_levels);
     motion_.next_frame(*frame, timestamp_ns);
     visible_.clear();
     if (!map_) {
@@ -50,11 +49,13 @@ class Tracker::Impl {
       jumped_ = false;
       const Localisation* found = lost_ ? relocalise(*frame) : localise_from_motion(*frame);
       judge(found, frame, result);
-      const bool good = result.state == TrackingState::Good;
-      if (auto request = chooser_.complete(motion_); request && good) {
+      // A pose that is not certain enough to record with may well be one from which the map grows
+      // until it is.
+      const bool shown = found && last_shown_ == frame;
+      if (auto request = chooser_.complete(motion_); request && shown) {
         mapper_.request(std::move(*request));
       }
-      if (good && !mapper_.busy()) {
+      if (shown && !mapper_.busy()) {
         auto request =
             chooser_.consider(*map_, {anchor_, anchor_from_camera_}, frame, *found, motion_);
         if (request) mapper_.request(std::move(*request));
@@ -145,7 +146,7 @@ class Tracker::Impl {
           motion_.readout_twist(camera_from_world_, found->pose.camera_from_world));
     }
     // While the camera is turned away the map may show by chance, or from elsewhere.
-    if (turn_.active() && !(found && is_good(*found))) {
+    if (turn_.active() && !(found && trust_in(*found, options_) >= Trust::Place)) {
       return ++frames_turned_ % kTurnTries == 0 ? relocalise(frame) : nullptr;
     }
     return found;
@@ -153,14 +154,18 @@ class Tracker::Impl {
 
   const Localisation* relocalise(const Pyramid& frame) {
     std::vector<PossiblePlace> places;
+    const double depth = keyframe(anchor_).median_depth;
     for (const geometry::Pose& pose : relocaliser_.find(*map_, frame, motion_.picture())) {
+      const bool known = std::ranges::any_of(places, [&](const PossiblePlace& place) {
+        return is_same_place(place.camera_from_world, pose, depth);
+      });
+      if (known) continue;
       const Localisation* here = localiser_.localise(*map_, frame, pose);
       if (!here || !is_verified(*here)) continue;
       places.push_back({here->pose.camera_from_world, here->inliers});
     }
     const double seconds = 1e-9 * static_cast<double>(motion_.timestamp_ns() - last_pose_ns_);
-    const auto chosen =
-        choose_place(places, {camera_from_world_, keyframe(anchor_).median_depth, seconds});
+    const auto chosen = choose_place(places, {camera_from_world_, depth, seconds});
     if (!chosen) return nullptr;
     const Localisation* found =
         localiser_.localise(*map_, frame, places[*chosen].camera_from_world);
@@ -172,8 +177,13 @@ class Tracker::Impl {
     return found;
   }
 
-  bool is_good(const Localisation& found) const {
-    return found.inliers >= kMinGoodInliers && found.found_share() >= options_.lost_inlier_share;
+  /// What is trusted little is not trusted at all where no hand can be.
+  Trust trusted(const Localisation& found) const {
+    const Trust trust = trust_in(found, options_);
+    if (trust != Trust::Little || jumped_) return trust;
+    const geometry::Pose found_from_expected =
+        found.pose.camera_from_world * motion_.expect(camera_from_world_).inverse();
+    return is_within_reach(found_from_expected, found.median_depth) ? trust : Trust::None;
   }
 
   /// Decides from what was found how far the pose can be trusted, and remembers it.
@@ -182,16 +192,20 @@ class Tracker::Impl {
     result.reason = motion_.picture().contrast() < kMinContrast ? TrackingReason::TooDarkOrBlurred
                     : lost_                                     ? TrackingReason::Relocalising
                                                                 : TrackingReason::TooFewPointsFound;
-    const bool usable = found && found->inliers >= kMinInliers;
-    const bool good = usable && is_good(*found);
-    if (!good && follow_turn(frame, result)) return;
-    if (good) turn_.stop();
-    bad_frames_ = good ? 0 : bad_frames_ + 1;
+    const Trust trust = found ? trusted(*found) : Trust::None;
+    const bool shown = trust >= Trust::Place;
+    if (!shown && follow_turn(frame, result)) return;
+    if (shown) {
+      turn_.stop();
+    } else if (!lost_) {
+      relocaliser_.prepare(*map_, motion_.picture());
+    }
+    bad_frames_ = shown ? 0 : bad_frames_ + 1;
     if (bad_frames_ >= options_.lost_after_frames) lost_ = true;
-    if (lost_ || !usable) {
+    if (lost_ || trust == Trust::None) {
       result.state = lost_ ? TrackingState::Lost : TrackingState::Poor;
       motion_.interrupted();
-      last_good_.reset();
+      last_shown_.reset();
       return;
     }
     if (jumped_) {
@@ -203,18 +217,19 @@ class Tracker::Impl {
     choose_anchor();
     show(*found);
     chooser_.note(*map_, *found);
-    last_good_ = good ? frame : nullptr;
-    if (good) last_pose_ns_ = motion_.timestamp_ns();
-    report_pose(good ? TrackingState::Good : TrackingState::Poor, found->inliers, result);
+    last_shown_ = shown ? frame : nullptr;
+    if (shown) last_pose_ns_ = motion_.timestamp_ns();
+    report_pose(trust == Trust::Full ? TrackingState::Good : TrackingState::Poor, found->inliers,
+                result);
   }
 
   /// Where the map no longer shows, a turn on the spot may explain the picture: the pose then is
   /// held, turned, and not good enough to record with. False if it does not.
   bool follow_turn(const std::shared_ptr<const Pyramid>& frame, TrackedFrame& result) {
     if (!turn_.active()) {
-      if (!last_good_) return false;
+      if (!last_shown_) return false;
       frames_turned_ = 0;
-      turn_.start(last_good_, camera_from_world_.rotation);
+      turn_.start(last_shown_, camera_from_world_.rotation);
     }
     std::optional<Eigen::Quaterniond> turned;
     if (!lost_) turned = turn_.follow(frame, predicted_.camera_from_world.rotation);
@@ -276,17 +291,18 @@ class Tracker::Impl {
   const config::Tracking options_;
   Initialiser initialiser_;
   Mapper mapper_;
+  PyramidPool pyramids_;
   Relocaliser relocaliser_;
   MotionModel motion_;
   TurnFollower turn_;
   KeyframeChooser chooser_;
   Localiser localiser_;
 
-  std::shared_ptr<const MapView> map_;        // the copy in use; null before initialisation
-  geometry::Pose camera_from_world_;          // of the last frame with a pose
-  geometry::FramePose predicted_;             // of the present frame
-  std::shared_ptr<const Pyramid> last_good_;  // the last frame, if its pose was good
-  int frames_turned_ = 0;                     // since the map last showed
+  std::shared_ptr<const MapView> map_;         // the copy in use; null before initialisation
+  geometry::Pose camera_from_world_;           // of the last frame with a pose
+  geometry::FramePose predicted_;              // of the present frame
+  std::shared_ptr<const Pyramid> last_shown_;  // the last frame, if it showed the map
+  int frames_turned_ = 0;                      // since the map last showed
   KeyframeId anchor_ = -1;
   geometry::Pose anchor_from_camera_;
   bool lost_ = false;
