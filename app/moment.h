@@ -3,12 +3,14 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "geometry/pose.h"
 #include "hal/camera.h"
 #include "hal/frame.h"
+#include "tracking/map_view.h"
 #include "tracking/tracked_frame.h"
 
 namespace lumibox::app {
@@ -18,6 +20,8 @@ struct MapNow {
   std::uint64_t revision = 0;
   std::function<std::optional<geometry::Similarity>(tracking::KeyframeId)> world_from_keyframe;
   std::function<std::vector<Eigen::Vector3d>()> points;  ///< the reliable ones, in world
+  /// All of it, to be kept; null before there is a map.
+  std::function<std::shared_ptr<const tracking::MapView>()> copy;
 };
 
 /// All that the modes see of the world in one tick.

@@ -15,7 +15,8 @@ MapNow map_of(const tracking::Tracker& tracker) {
     return positions;
   };
   return {tracker.map_revision(),
-          [&tracker](tracking::KeyframeId id) { return tracker.world_from_keyframe(id); }, points};
+          [&tracker](tracking::KeyframeId id) { return tracker.world_from_keyframe(id); }, points,
+          [&tracker] { return tracker.map(); }};
 }
 
 Sight::Sight(hal::Camera& camera, const hal::Clock& clock, tracking::Tracker& tracker)

@@ -36,6 +36,14 @@ class Tracker::Impl {
         chooser_(camera, options),
         localiser_(camera, options) {}
 
+  void resume(const MapView& saved) {
+    mapper_.resume(saved);
+    map_ = mapper_.view();
+    anchor_ = static_cast<KeyframeId>(map_->keyframes.size()) - 1;
+    camera_from_world_ = keyframe(anchor_).camera_from_world;
+    lost_ = true;
+  }
+
   TrackedFrame track(const hal::Image& gray, std::int64_t index, std::int64_t timestamp_ns) {
     TrackedFrame result;
     result.index = index;
@@ -74,6 +82,8 @@ class Tracker::Impl {
     const auto map = mapper_.view();
     return map ? map->revision : 0;
   }
+
+  std::shared_ptr<const MapView> map() const { return mapper_.view(); }
 
   std::vector<MapPoint> points() const {
     std::vector<MapPoint> points;
@@ -158,7 +168,9 @@ class Tracker::Impl {
       if (!here || !is_verified(*here)) continue;
       places.push_back({here->pose.camera_from_world, here->inliers});
     }
-    const double seconds = 1e-9 * static_cast<double>(motion_.timestamp_ns() - last_pose_ns_);
+    const double seconds = last_pose_ns_
+                               ? 1e-9 * static_cast<double>(motion_.timestamp_ns() - *last_pose_ns_)
+                               : std::numeric_limits<double>::infinity();
     const auto chosen =
         choose_place(places, {camera_from_world_, keyframe(anchor_).median_depth, seconds});
     if (!chosen) return nullptr;
@@ -291,15 +303,23 @@ class Tracker::Impl {
   bool lost_ = false;
   bool jumped_ = false;  // this frame was located anew
   int bad_frames_ = 0;
-  std::int64_t last_pose_ns_ = 0;  // of the last good one
+  std::optional<std::int64_t> last_pose_ns_;  // of the last good one; none since a resume
   int relocalisations_ = 0;
   std::vector<Eigen::Vector3d> visible_;
 };
 
 Tracker::Tracker(const geometry::Camera& camera, const config::Tracking& options, Mapping mapping,
-                 std::uint32_t seed)
-    : impl_(std::make_unique<Impl>(camera, options, mapping, seed)) {}
+                 std::uint32_t seed, std::shared_ptr<const MapView> saved)
+    : begin_([=] { return std::make_unique<Impl>(camera, options, mapping, seed); }),
+      impl_(begin_()) {
+  if (saved) impl_->resume(*saved);
+}
 Tracker::~Tracker() = default;
+
+void Tracker::start_over() {
+  impl_.reset();  // first, for its thread must not run beside another
+  impl_ = begin_();
+}
 
 TrackedFrame Tracker::track(const hal::Image& gray, std::int64_t index, std::int64_t timestamp_ns) {
   return impl_->track(gray, index, timestamp_ns);
@@ -309,6 +329,9 @@ std::optional<geometry::Similarity> Tracker::world_from_keyframe(KeyframeId id) 
 }
 std::uint64_t Tracker::map_revision() const {
   return impl_->map_revision();
+}
+std::shared_ptr<const MapView> Tracker::map() const {
+  return impl_->map();
 }
 std::vector<MapPoint> Tracker::points() const {
   return impl_->points();
