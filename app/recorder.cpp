@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 #include "config/error.h"
@@ -18,7 +19,8 @@ namespace {
 /// Keyframe of the map nearest to `place` in world.
 tracking::KeyframeId nearest_keyframe(const tracking::MapView& map, const Eigen::Vector3d& place) {
   const auto distance = [&place](const tracking::MapView::Keyframe& keyframe) {
-    return (keyframe.world_from_camera.translation - place).squaredNorm();
+    return keyframe.culled() ? std::numeric_limits<double>::infinity()
+                             : (keyframe.world_from_camera.translation - place).squaredNorm();
   };
   const auto nearest = std::ranges::min_element(map.keyframes, {}, distance);
   return static_cast<tracking::KeyframeId>(nearest - map.keyframes.begin());
@@ -31,20 +33,20 @@ LightField hung_on(const tracking::MapView& map, const LightField& light_field) 
   const auto exists = [&map](int id) {
     return id >= 0 && static_cast<std::size_t>(id) < map.keyframes.size();
   };
-  const auto camera_from_world = [&map](int id) {
-    return map.keyframes[static_cast<std::size_t>(id)].camera_from_world;
+  const auto keyframe_from_world = [&map](int id) {
+    return map.keyframes[static_cast<std::size_t>(id)].world_from_keyframe().inverse();
   };
   std::vector<Perspective> perspectives = light_field.perspectives();
   for (Perspective& p : perspectives) {
     if (!exists(p.keyframe)) {
       p.keyframe = nearest_keyframe(map, p.center());
-      p.keyframe_from_camera = camera_from_world(p.keyframe) * p.world_from_camera;
+      p.keyframe_from_camera = keyframe_from_world(p.keyframe) * p.world_from_camera;
     }
   }
   std::optional<Sphere> subject = light_field.subject();
   if (subject && !exists(subject->keyframe)) {
     subject->keyframe = nearest_keyframe(map, subject->center);
-    subject->center_in_keyframe = camera_from_world(subject->keyframe) * subject->center;
+    subject->center_in_keyframe = keyframe_from_world(subject->keyframe) * subject->center;
   }
   return {std::move(perspectives), subject};
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <set>
 
 #include "config/error.h"
@@ -65,22 +66,62 @@ std::shared_ptr<const Pyramid> read_picture(const fs::path& file, const geometry
   return std::make_shared<const Pyramid>(hal::read_image(file), levels);
 }
 
-MapView::Keyframe read_keyframe(const JsonValue& value) {
-  MapView::Keyframe keyframe;
+double read_length(const JsonValue& value) {
+  const double length = value.number();
+  if (!(length > 0.0 && length <= geometry::kLargestCoordinate)) {
+    value.fail("is " + to_text(length) + ", expected more than 0, up to 1e9");
+  }
+  return length;
+}
+
+geometry::Similarity read_place(const JsonValue& value) {
   const Eigen::VectorXd q = value.at("rotation_wxyz").numbers(4);
   if (!(std::abs(q.norm() - 1.0) <= kRotationTolerance)) {
     value.at("rotation_wxyz").fail("is not a unit quaternion");
   }
   // Not normalised: the map goes on from the very bits that it had.
-  keyframe.world_from_camera = {Eigen::Quaterniond(q[0], q[1], q[2], q[3]),
-                                read_position(value.at("translation"))};
-  keyframe.camera_from_world = keyframe.world_from_camera.inverse();
-  keyframe.readout_twist = value.at("readout_twist").numbers(6);
-  keyframe.median_depth = value.at("median_depth").number();
-  if (!(keyframe.median_depth > 0.0 && keyframe.median_depth <= geometry::kLargestCoordinate)) {
-    value.at("median_depth").fail("is not a depth; expected more than 0, up to 1e9");
+  return {read_length(value.at("scale")),
+          {Eigen::Quaterniond(q[0], q[1], q[2], q[3]), read_position(value.at("translation"))}};
+}
+
+/// All but the picture; of a culled one the place is not known yet.
+MapView::Keyframe read_keyframe(const JsonValue& value, std::size_t keyframes) {
+  MapView::Keyframe keyframe;
+  if (value.has("tied_to")) {
+    const auto last = static_cast<long long>(keyframes) - 1;
+    keyframe.tied_to = static_cast<KeyframeId>(value.at("tied_to").integer(0, last));
+    keyframe.tied_from_this = read_place(value.at("tied_from_this"));
+    return keyframe;
   }
+  const geometry::Similarity place = read_place(value.at("world_from_this"));
+  keyframe.world_from_camera = place.rigid;
+  keyframe.camera_from_world = place.rigid.inverse();
+  keyframe.scale = place.scale;
+  keyframe.readout_twist = value.at("readout_twist").numbers(6);
+  keyframe.median_depth = read_length(value.at("median_depth"));
   return keyframe;
+}
+
+std::vector<MapView::Keyframe> read_keyframes(const JsonValue& list, const fs::path& capture,
+                                              const geometry::Camera& camera, int levels) {
+  const std::vector<JsonValue> values = list.items();
+  std::vector<MapView::Keyframe> keyframes;
+  for (const JsonValue& value : values) keyframes.push_back(read_keyframe(value, values.size()));
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    MapView::Keyframe& keyframe = keyframes[i];
+    if (keyframe.tied_to < 0) {
+      const auto id = static_cast<KeyframeId>(i);
+      keyframe.pyramid = read_picture(capture / map_picture_file(id), camera, levels);
+      continue;
+    }
+    const MapView::Keyframe& tie = keyframes[static_cast<std::size_t>(keyframe.tied_to)];
+    if (tie.tied_to >= 0) values[i].at("tied_to").fail("is itself tied to another");
+    const geometry::Similarity place = tie.world_from_keyframe() * keyframe.tied_from_this;
+    keyframe.world_from_camera = place.rigid;
+    keyframe.camera_from_world = place.rigid.inverse();
+    keyframe.scale = place.scale;
+  }
+  return keyframes;
 }
 
 Sighting read_sighting(const JsonValue& value, const MapView& map, const geometry::Camera& camera) {
@@ -92,8 +133,9 @@ Sighting read_sighting(const JsonValue& value, const MapView& map, const geometr
   sighting.pixel = {fields[1].number(), fields[2].number()};
   // A match may end a fraction of a pixel beyond the outermost centres.
   if (!camera.contains(sighting.pixel, -1.0)) value.fail("lies outside the picture");
-  const int levels = map.keyframes[static_cast<std::size_t>(sighting.keyframe)].pyramid->levels();
-  sighting.level = static_cast<int>(fields[3].integer(0, levels - 1));
+  const MapView::Keyframe& keyframe = map.keyframes[static_cast<std::size_t>(sighting.keyframe)];
+  if (keyframe.culled()) value.fail("is in a keyframe that is tied to another");
+  sighting.level = static_cast<int>(fields[3].integer(0, keyframe.pyramid->levels() - 1));
   return sighting;
 }
 
@@ -126,13 +168,9 @@ MapView read_map(const fs::path& capture, const geometry::Camera& camera, int le
   require_same_camera(top.at("camera"), camera.profile());
   MapView map;
   map.next_point = static_cast<PointId>(top.at("next_point").integer(0, kMost));
-  for (const JsonValue& value : top.at("keyframes").items()) {
-    map.keyframes.push_back(read_keyframe(value));
-  }
-  if (map.keyframes.empty()) top.at("keyframes").fail("is empty");
-  for (std::size_t i = 0; i < map.keyframes.size(); ++i) {
-    map.keyframes[i].pyramid =
-        read_picture(capture / map_picture_file(static_cast<KeyframeId>(i)), camera, levels);
+  map.keyframes = read_keyframes(top.at("keyframes"), capture, camera, levels);
+  if (std::ranges::all_of(map.keyframes, &MapView::Keyframe::culled)) {
+    top.at("keyframes").fail("has none with a picture");
   }
   for (const JsonValue& value : top.at("points").items()) read_point(value, camera, &map);
   return map;

@@ -28,10 +28,18 @@ Json to_json(const config::CameraProfile& c) {
           {"readout_s", c.readout_s}};
 }
 
-Json to_json(const MapView::Keyframe& keyframe) {
-  const Eigen::Quaterniond q = geometry::canonical(keyframe.world_from_camera.rotation);
+Json to_json(const geometry::Similarity& place) {
+  const Eigen::Quaterniond q = geometry::canonical(place.rigid.rotation);
   return {{"rotation_wxyz", {q.w(), q.x(), q.y(), q.z()}},
-          {"translation", to_json(keyframe.world_from_camera.translation)},
+          {"translation", to_json(place.rigid.translation)},
+          {"scale", place.scale}};
+}
+
+Json to_json(const MapView::Keyframe& keyframe) {
+  if (keyframe.culled()) {
+    return {{"tied_to", keyframe.tied_to}, {"tied_from_this", to_json(keyframe.tied_from_this)}};
+  }
+  return {{"world_from_this", to_json(keyframe.world_from_keyframe())},
           {"readout_twist", to_json(keyframe.readout_twist)},
           {"median_depth", keyframe.median_depth}};
 }
@@ -49,12 +57,20 @@ Json to_json(const MapView::Point& point, const MapView& map) {
           {"sightings", std::move(sightings)}};
 }
 
+bool is_length(double value) {
+  return value > 0.0 && value <= geometry::kLargestCoordinate;
+}
+
 /// True if what is written will be read again: JSON has no NaN.
+bool is_sound(const geometry::Similarity& place) {
+  return place.rigid.rotation.coeffs().allFinite() &&
+         !geometry::fault_of_position(place.rigid.translation) && is_length(place.scale);
+}
+
 bool is_sound(const MapView::Keyframe& keyframe) {
-  return keyframe.world_from_camera.rotation.coeffs().allFinite() &&
-         !geometry::fault_of_position(keyframe.world_from_camera.translation) &&
-         keyframe.readout_twist.allFinite() && keyframe.median_depth > 0.0 &&
-         keyframe.median_depth <= geometry::kLargestCoordinate;
+  if (keyframe.culled()) return is_sound(keyframe.tied_from_this);
+  return is_sound(keyframe.world_from_keyframe()) && keyframe.readout_twist.allFinite() &&
+         is_length(keyframe.median_depth);
 }
 
 /// One line per keyframe and point: the whole tree of a large map would take memory for nothing.
@@ -101,12 +117,17 @@ void MapWriter::write(const MapView& map, const geometry::Camera& camera,
   files.make_folder(capture_ / kMapFolder);
   for (std::size_t i = 0; i < map.keyframes.size(); ++i) {
     const auto id = static_cast<tracking::KeyframeId>(i);
-    if (pictures_.contains(id)) continue;
+    if (map.keyframes[i].culled() || pictures_.contains(id)) continue;
     files.write(capture_ / map_picture_file(id),
                 hal::encode_png(map.keyframes[i].pyramid->level(0)));
     pictures_.insert(id);
   }
   files.write(capture_ / kMapFile, map_json(map, camera));
+  for (std::size_t i = 0; i < map.keyframes.size(); ++i) {
+    const auto id = static_cast<tracking::KeyframeId>(i);
+    if (!map.keyframes[i].culled() || pictures_.erase(id) == 0) continue;
+    files.remove(capture_ / map_picture_file(id));  // no longer named
+  }
 }
 
 }  // namespace lumibox::lightfield

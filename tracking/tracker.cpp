@@ -40,6 +40,7 @@ class Tracker::Impl {
     mapper_.resume(saved);
     map_ = mapper_.view();
     anchor_ = static_cast<KeyframeId>(map_->keyframes.size()) - 1;
+    while (anchor_ > 0 && keyframe(anchor_).culled()) --anchor_;
     camera_from_world_ = keyframe(anchor_).camera_from_world;
     lost_ = true;
   }

@@ -55,6 +55,16 @@ TEST(MapFiles, PicturesAreWrittenOnce) {
   EXPECT_EQ(written, expected);
 }
 
+TEST(MapFiles, PicturesOfCulledKeyframesGo) {
+  const TemporaryFolder folder;
+  MapWriter writer(folder / "c", 0);
+  writer.write(make_map(3), *small_camera(), {});
+  EXPECT_TRUE(std::filesystem::exists(folder / "c" / "map/000002.png"));
+  writer.write(make_map(4), *small_camera(), {});  // which has culled it
+  EXPECT_FALSE(std::filesystem::exists(folder / "c" / "map/000002.png"));
+  EXPECT_EQ(read_map(folder / "c", *small_camera(), kLevels).keyframes.size(), 4U);
+}
+
 // The picture of a keyframe that map.json did not come to name is of another picture than the one
 // that now has its number.
 TEST(MapFiles, APictureThatTheMapDidNotNameIsWrittenAgain) {
@@ -65,7 +75,7 @@ TEST(MapFiles, APictureThatTheMapDidNotNameIsWrittenAgain) {
   writer.write(other, *small_camera(), {});
   const auto read = read_map(folder / "c", *small_camera(), kLevels);
   EXPECT_EQ(read.keyframes[3].pyramid->level(0), other.keyframes[3].pyramid->level(0));
-  EXPECT_NE(read.keyframes[2].pyramid->level(0), other.keyframes[2].pyramid->level(0));
+  EXPECT_NE(read.keyframes[1].pyramid->level(0), other.keyframes[1].pyramid->level(0));
 }
 
 TEST(MapFiles, AMapThatIsNotFiniteLeavesTheOldOne) {
@@ -126,10 +136,18 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"NotANumber", "\"median_depth\":", "\"median_depth\":null,\"x\":",
                "keyframes[0].median_depth is null"},
         Damage{"Infinite", "\"position\":[", "\"position\":[1e999,", "1e999"},
+        Damage{"NoScale", "\"scale\":1.0", "\"scale\":0.0",
+               "keyframes[0].world_from_this.scale is 0, expected more than 0"},
+        Damage{"TiedToNothing", "{\"world_from_this\":", "{\"tied_to\":3,\"tied_from_this\":",
+               "keyframes[0].tied_to is 3, expected an integer from 0 to 2"},
+        Damage{"TiedToItself", "{\"world_from_this\":", "{\"tied_to\":0,\"tied_from_this\":",
+               "keyframes[0].tied_to is itself tied"},
+        Damage{"SeenInATiedOne", "{\"world_from_this\":", "{\"tied_to\":1,\"tied_from_this\":",
+               "points[0].sightings[0] is in a keyframe that is tied"},
         Damage{"NotARotation", "\"rotation_wxyz\":[", "\"rotation_wxyz\":[3,0,0,0],\"x\":[",
-               "keyframes[0].rotation_wxyz is not a unit quaternion"},
+               "keyframes[0].world_from_this.rotation_wxyz is not a unit quaternion"},
         Damage{"FarAway", "\"translation\":[", "\"translation\":[2e9,0,0],\"x\":[",
-               "keyframes[0].translation has"},
+               "keyframes[0].world_from_this.translation has"},
         Damage{"KeyframeThatIsNot", "\"sightings\":[[0,", "\"sightings\":[[3,",
                "points[0].sightings[0][0] is 3, expected an integer from 0 to 2"},
         Damage{"NegativeKeyframe", "\"sightings\":[[0,", "\"sightings\":[[-1,",
@@ -149,7 +167,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"FoundMoreThanSearched", "\"searched\":1,", "\"searched\":0,",
                "points[1].found is 1, expected an integer from 0 to 0"},
         Damage{"NoKeyframes", "\"keyframes\": [", "\"keyframes\": [], \"x\": [",
-               "keyframes is empty"}),
+               "keyframes has none with a picture"}),
     [](const auto& damage) { return damage.param.name; });
 
 TEST(DamagedMapFiles, AMapThatIsCutAnywhereIsRefused) {

@@ -11,7 +11,8 @@
 namespace lumibox::lightfield {
 
 /// A map as the tracker makes them, of small_camera(): `keyframes` keyframes with pictures of noise
-/// and points that two or three of them see; numbers with all their digits. Ids have gaps.
+/// and points that two or three of them see; numbers with all their digits. Ids have gaps; of four
+/// or more keyframes one is culled and one has been scaled.
 inline tracking::MapView make_map(int keyframes, unsigned seed = 1) {
   std::mt19937 random(seed);
   const auto uniform = [&random] { return static_cast<double>(random()) / 4294967296.0; };
@@ -38,6 +39,10 @@ inline tracking::MapView make_map(int keyframes, unsigned seed = 1) {
   map.remove_point(4);
   map.remove_point(12 * keyframes - 1);  // the last: its id must not come back
   map.update_depths();
+  if (keyframes > 3) {
+    map.move_keyframe(1, {1.25, map.keyframe(1).world_from_camera});
+    map.cull_keyframe(2, 1);
+  }
   return map.view(1);
 }
 
@@ -57,6 +62,13 @@ inline std::string difference(const tracking::MapView& a, const tracking::MapVie
         !same(k.camera_from_world, l.camera_from_world)) {
       return "pose";
     }
+    if (k.scale != l.scale || k.tied_to != l.tied_to) return "tie";
+    if (k.tied_from_this.scale != l.tied_from_this.scale ||
+        !same(k.tied_from_this.rigid, l.tied_from_this.rigid)) {
+      return "place in tie";
+    }
+    if (k.culled() != l.culled()) return "culled";
+    if (k.culled()) continue;
     if (k.readout_twist != l.readout_twist || k.median_depth != l.median_depth) return "keyframe";
     if (k.points != l.points) return "number of points seen";
     if (k.pyramid->levels() != l.pyramid->levels()) return "levels";
