@@ -11,6 +11,7 @@
 #include "hal/camera.h"
 #include "hal/frame.h"
 #include "tracking/map_view.h"
+#include "tracking/pose_refinement.h"
 #include "tracking/tracked_frame.h"
 
 namespace lumibox::app {
@@ -32,6 +33,8 @@ struct Moment {
   double tracking_ms = 0.0;                 ///< time spent tracking it; 0 on a virtual clock
   tracking::TrackedFrame tracked;           ///< of `frame`
   std::vector<Eigen::Vector3d> map_points;  ///< in world, those seen in `frame`
+  /// What the pose of `frame` was estimated from; valid until the next one is tracked.
+  const tracking::FrameMeasurements* measurements = nullptr;
   MapNow map;
 
   bool tracking_is_good() const {

@@ -107,6 +107,9 @@ void Recorder::record(const Moment& moment) {
   perspective.keyframe = moment.tracked.keyframe;
   perspective.keyframe_from_camera = moment.tracked.keyframe_from_camera;
   perspective.id = light_field_.add(perspective);
+  if (moment.measurements != nullptr) {
+    measurements_[perspective.id] = *moment.measurements;
+  }
   if (!store_ && !open_error_) {
     open_store();
   }
@@ -228,6 +231,7 @@ void Recorder::end_capture(const MapNow& map) {
   std::erase_if(ended_stores_, [](const auto& store) { return store->ended() && !store->error(); });
   map_revision_.reset();  // moves that were too small so far count now
   follow_map(map, 0.0);
+  refine(map);
   if (store_) {
     if (in_this_world_) {
       store_->set_points(map.points());
@@ -236,8 +240,39 @@ void Recorder::end_capture(const MapNow& map) {
     store_->end();
     ended_stores_.push_back(std::move(store_));
   }
+  measurements_.clear();
   kept_revision_.reset();
   in_this_world_ = true;
+}
+
+/// The pose of a live frame is good to what the map was then. Estimated again from the same pixels
+/// and the points where they are now, it has the errors of one picture alone, not those of the map
+/// of then.
+void Recorder::refine(const MapNow& map) {
+  const auto copy = in_this_world_ && !measurements_.empty() ? map.copy() : nullptr;
+  if (!copy) {
+    return;
+  }
+  const std::vector<Perspective> perspectives = light_field_.perspectives();
+  for (const Perspective& p : perspectives) {
+    const auto measured = measurements_.find(p.id);
+    const auto world_from_keyframe = map.world_from_keyframe(p.keyframe);
+    if (measured == measurements_.end() || !world_from_keyframe) {
+      continue;
+    }
+    const auto refined =
+        tracking::refine_pose(*camera_, *copy, measured->second, p.world_from_camera);
+    if (!refined) {
+      continue;
+    }
+    const geometry::Pose keyframe_from_camera = world_from_keyframe->inverse() * *refined;
+    light_field_.hang(p.id, p.keyframe, keyframe_from_camera);
+    if (store_) {
+      store_->hang(p.id, p.keyframe, keyframe_from_camera);
+    }
+  }
+  map_revision_.reset();
+  follow_map(map, 0.0);
 }
 
 void Recorder::finish(const MapNow& map) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -75,6 +76,7 @@ class Recorder {
   void open_store();
   void keep_map(const MapNow& map);
   void end_capture(const MapNow& map);
+  void refine(const MapNow& map);
   void follow_subject(const MapNow& map, double tolerance);
 
   std::shared_ptr<const geometry::Camera> camera_;
@@ -87,7 +89,9 @@ class Recorder {
   std::vector<std::unique_ptr<lightfield::Store>> ended_stores_;
   std::optional<std::string> open_error_;
   std::optional<std::uint64_t> map_revision_;  ///< that all poses agree with; none: to be checked
-  bool in_this_world_ = true;                  ///< the capture's world is the tracker's
+  /// Of the perspectives recorded here, by id.
+  std::map<int, tracking::FrameMeasurements> measurements_;
+  bool in_this_world_ = true;  ///< the capture's world is the tracker's
   std::optional<double> threshold_;
   std::optional<std::uint64_t> kept_revision_;  ///< of the map on disk
   std::int64_t kept_at_ns_ = 0;                 ///< time of its frame

@@ -53,9 +53,8 @@ void Screen::draw_text(const Picture& picture) {
   float baseline = margin + size;
   lines.push_back({picture.title, margin, baseline, size, kWhite});
   const float alert_size = 0.8F * size;
-  const auto letters = static_cast<std::size_t>(
-      std::max(1.0F, (static_cast<float>(display_.width()) - 2.0F * margin) /
-                         (kLetterWidth * alert_size)));
+  const auto letters = static_cast<std::size_t>(std::max(
+      1.0F, (static_cast<float>(display_.width()) - 2.0F * margin) / (kLetterWidth * alert_size)));
   for (const std::string& alert : picture.alerts) {
     for (const std::string& line : wrapped(alert, letters)) {
       baseline += 1.4F * size;

@@ -83,6 +83,16 @@ void CaptureWriter::set_pose(int id, const geometry::Pose& world_from_camera) {
   moved_ = true;
 }
 
+void CaptureWriter::hang(int id, int keyframe, const geometry::Pose& keyframe_from_camera) {
+  const auto found = named_.find(id);
+  if (found == named_.end()) return;
+  require_finite(id, keyframe_from_camera);
+  commit();  // likewise
+  found->second.keyframe = keyframe;
+  found->second.keyframe_from_camera = keyframe_from_camera;
+  moved_ = true;
+}
+
 void CaptureWriter::set_points(const std::vector<Eigen::Vector3d>& points) {
   files_.write(folder_ / kPointsFile, encode_ply(points));
   if (!header_.has_points) changed_ = true;

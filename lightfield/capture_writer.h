@@ -45,6 +45,8 @@ class CaptureWriter {
   void set_subject(const Sphere& sphere);
   void set_pose(int id, const geometry::Pose& world_from_camera);
 
+  void hang(int id, int keyframe, const geometry::Pose& keyframe_from_camera);
+
   /// Brings transforms.json up to date if something but moves has changed.
   void commit();
   /// The same, if only moves have, too.

@@ -170,6 +170,10 @@ void Store::set_pose(int id, const geometry::Pose& world_from_camera) {
       [id, world_from_camera](CaptureWriter& writer) { writer.set_pose(id, world_from_camera); });
 }
 
+void Store::hang(int id, int keyframe, const geometry::Pose& keyframe_from_camera) {
+  impl_->post([=](CaptureWriter& writer) { writer.hang(id, keyframe, keyframe_from_camera); });
+}
+
 void Store::set_points(std::vector<Eigen::Vector3d> points) {
   impl_->post([points = std::move(points)](CaptureWriter& writer) { writer.set_points(points); });
 }

@@ -58,6 +58,9 @@ class Store {
   void set_subject(const Sphere& sphere);
   void set_pose(int id, const geometry::Pose& world_from_camera);
 
+  /// Has a perspective hang on a keyframe in another way. Written as moves are.
+  void hang(int id, int keyframe, const geometry::Pose& keyframe_from_camera);
+
   /// Of the gate, radians. Written as moves are.
   void set_threshold(double radians);
 

@@ -8,6 +8,7 @@
 #include "tracking/map_tracking.h"
 #include "tracking/mapper.h"
 #include "tracking/motion_model.h"
+#include "tracking/pose_refinement.h"
 #include "tracking/relocalisation.h"
 #include "tracking/relocaliser.h"
 #include "tracking/turn_follower.h"
@@ -52,6 +53,7 @@ class Tracker::Impl {
     const auto frame = std::make_shared<const Pyramid>(gray, options_.pyramid_levels);
     motion_.next_frame(*frame, timestamp_ns);
     visible_.clear();
+    measured_.points.clear();
     if (!map_) {
       initialise(frame, result);
     } else {
@@ -97,6 +99,8 @@ class Tracker::Impl {
   }
 
   const std::vector<Eigen::Vector3d>& visible_points() const { return visible_; }
+
+  const FrameMeasurements& measurements() const { return measured_; }
 
   TrackerStatistics statistics() const {
     TrackerStatistics s;
@@ -280,8 +284,11 @@ class Tracker::Impl {
 
   void show(const Localisation& found) {
     for (const Measurement& m : found.measurements) {
-      if (m.inlier) visible_.push_back(m.position);
+      if (!m.inlier) continue;
+      visible_.push_back(m.position);
+      measured_.points.push_back({map_->points[m.point].id, m.pixel.cast<float>(), m.level});
     }
+    measured_.readout_twist = found.pose.readout_twist;
   }
 
   const geometry::Camera camera_;
@@ -307,6 +314,7 @@ class Tracker::Impl {
   std::optional<std::int64_t> last_pose_ns_;  // of the last good one; none since a resume
   int relocalisations_ = 0;
   std::vector<Eigen::Vector3d> visible_;
+  FrameMeasurements measured_;
 };
 
 Tracker::Tracker(const geometry::Camera& camera, const config::Tracking& options, Mapping mapping,
@@ -339,6 +347,9 @@ std::vector<MapPoint> Tracker::points() const {
 }
 std::vector<Eigen::Vector3d> Tracker::visible_points() const {
   return impl_->visible_points();
+}
+const FrameMeasurements& Tracker::measurements() const {
+  return impl_->measurements();
 }
 TrackerStatistics Tracker::statistics() const {
   return impl_->statistics();

@@ -15,6 +15,7 @@
 
 namespace lumibox::tracking {
 
+struct FrameMeasurements;
 struct MapView;
 
 /// A point of the map as others see it.
@@ -72,6 +73,9 @@ class Tracker {
 
   /// Points that the last tracked frame measured, in world.
   std::vector<Eigen::Vector3d> visible_points() const;
+
+  /// All that the pose of the last tracked frame was estimated from.
+  const FrameMeasurements& measurements() const;
 
   TrackerStatistics statistics() const;
 

@@ -162,6 +162,33 @@ TEST_F(RecorderTest, ErrorInTheLastWriteOfTheCaptureBeforeIsShownAndNotForgotten
   EXPECT_EQ(lightfield::load_capture(dir_ / "capture-0003").points.size(), 1U);
 }
 
+// The live pose was off by as much as the map was then; in the end the points tell better.
+TEST_F(RecorderTest, CaptureThatEndsHasItsPosesFromThePointsAsTheyAreInTheEnd) {
+  begin();
+  const geometry::Camera camera = testing::small_camera();
+  auto map = std::make_shared<tracking::MapView>(*world_.copy());
+  tracking::FrameMeasurements measured;
+  const geometry::Pose truth = around_subject(0.2);
+  for (int i = 0; i < 64; ++i) {
+    const Eigen::Vector3d point(0.08 * (i % 8) - 0.3, 0.06 * (i / 8) - 0.2, 0.8 + 0.05 * (i % 5));
+    map->points.push_back({i, point, 0, 0});
+    measured.points.push_back(
+        {i, camera.project(truth.inverse() * point).value().cast<float>(), 0});
+  }
+  Moment moment = world_.see_from(around_subject(0.21));
+  moment.measurements = &measured;
+  recorder_.record(moment);
+  MapNow end = world_.map();
+  end.copy = [map] { return map; };
+  recorder_.finish(end);
+  const auto capture = lightfield::load_capture(dir_ / "capture");
+  const auto& perspective = capture.light_field.perspectives().front();
+  // 1e-5: pixels are floats, and the picture is small.
+  EXPECT_LT((perspective.center() - truth.translation).norm(), 1e-5);
+  EXPECT_LT((perspective.keyframe_from_camera.translation - truth.translation).norm(), 1e-5)
+      << "keyframe 0 is the world: what the capture is gone on with from is refined, too";
+}
+
 /// A capture that the power left, and the box that finds it.
 class ResumedRecorder : public RecorderTest {
  protected:
