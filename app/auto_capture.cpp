@@ -18,7 +18,8 @@ AutoCapture::AutoCapture(Recorder& recorder, const geometry::Camera& camera,
       options_(options),
       folder_(std::move(folder)),
       subject_(subject.value_or(SubjectPixel{reticle(camera), 0})),
-      subject_given_(subject.has_value()) {}
+      subject_given_(subject.has_value()),
+      placed_(recorder.light_field().subject().has_value()) {}
 
 void AutoCapture::see(const Moment& moment) {
   recorder_.follow_map(moment.map, options_.moved_share);
@@ -28,6 +29,7 @@ void AutoCapture::see(const Moment& moment) {
   if (placed_ && recorder_.accepts(moment, options_.threshold_deg * std::numbers::pi / 180.0)) {
     recorder_.record(moment);
   }
+  recorder_.keep_map(moment);
 }
 
 void AutoCapture::place(const Moment& moment) {
@@ -35,6 +37,7 @@ void AutoCapture::place(const Moment& moment) {
   const auto depth = ray ? depth_on_ray(*ray, moment.map_points) : std::nullopt;
   if (depth) {
     recorder_.begin(sphere_on_ray(*ray, *depth, options_), moment, folder_);
+    recorder_.set_threshold(options_.threshold_deg * std::numbers::pi / 180.0);
     placed_ = true;
     if (subject_given_ && moment.frame.index != subject_.frame) {
       config::log_warning(

@@ -23,7 +23,8 @@ struct SubjectPixel {
 /// the depth of the tracked points around it; from then on the gate decides.
 class AutoCapture {
  public:
-  /// Without `subject` the sphere is placed in the first frame that is tracked well.
+  /// Without `subject` the sphere is placed in the first frame that is tracked well. A recorder
+  /// that goes on with a capture has its sphere.
   AutoCapture(Recorder& recorder, const geometry::Camera& camera, const config::Capture& options,
               std::filesystem::path folder, const std::optional<SubjectPixel>& subject);
 

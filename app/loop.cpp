@@ -7,21 +7,41 @@
 #include "app/attempts.h"
 
 namespace lumibox::app {
+namespace {
+
+std::optional<WaitingCapture> waiting(const std::optional<SavedCapture>& saved) {
+  return saved ? std::optional(WaitingCapture{saved->name(), saved->problem}) : std::nullopt;
+}
+
+}  // namespace
 
 Loop::Loop(Devices& devices, const config::Config& config, std::filesystem::path captures,
-           Threading threading)
+           Threading threading, std::optional<SavedCapture> saved)
     : devices_(devices),
       config_(config),
       camera_(devices.camera->profile()),
-      tracker_(camera_, config.tracking, threading.mapping, /*seed=*/0),
+      tracker_(camera_, config.tracking, threading.mapping, /*seed=*/0,
+               saved ? saved->map : nullptr),
       sight_(*devices.camera, *devices.clock, tracker_),
       recorder_(camera_, config.capture, threading.writing),
       session_{config_, std::move(captures), recorder_,
-               config.capture.threshold_deg * std::numbers::pi / 180.0},
+               config.capture.threshold_deg * std::numbers::pi / 180.0, waiting(saved)},
       modes_(session_, camera_),
       gestures_(config.controls.long_press_s),
       metronome_(*devices.clock, config.loop.rate_hz),
-      screen_(*devices.display, camera_) {}
+      screen_(*devices.display, camera_) {
+  if (saved) {
+    resume(std::move(*saved));
+  }
+}
+
+void Loop::resume(SavedCapture saved) {
+  session_.threshold = saved.capture.threshold.value_or(session_.threshold);
+  recorder_.resume(std::move(saved.capture), saved.map ? &sight_.moment().map : nullptr);
+  for (const auto& perspective : recorder_.light_field().perspectives()) {
+    screen_.upload(perspective);
+  }
+}
 
 void Loop::run(const std::function<bool()>& go_on) {
   do {
@@ -42,9 +62,14 @@ void Loop::tick() {
   const auto gestures = gestures_.update(devices_.buttons->poll(), moment.now_ns);
   const Decision decision = modes_.decide(gestures, moment);
   hold_exposure(decision.hold_exposure);
+  if (decision.start_over) {
+    recorder_.close(moment.map);
+    tracker_.start_over();
+  }
   if (decision.record) {
     record(moment);
   }
+  recorder_.keep_map(moment);
   show(modes_.draw(moment));
   ++statistics_.ticks;
 }

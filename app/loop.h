@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "app/devices.h"
@@ -10,6 +11,7 @@
 #include "app/metronome.h"
 #include "app/modes/modes.h"
 #include "app/recorder.h"
+#include "app/saved_capture.h"
 #include "app/screen.h"
 #include "app/sight.h"
 #include "app/threading.h"
@@ -29,9 +31,10 @@ struct LoopStatistics {
 /// The appliance: everything that happens, happens in tick().
 class Loop {
  public:
-  /// `devices` must outlive the loop; captures become folders of their own in `captures`.
+  /// `devices` must outlive the loop; captures become folders of their own in `captures`. If a
+  /// capture is `saved`, it can be gone on with.
   Loop(Devices& devices, const config::Config& config, std::filesystem::path captures,
-       Threading threading);
+       Threading threading, std::optional<SavedCapture> saved = std::nullopt);
 
   /// Ticks at the configured rate as long as `go_on` says so after each.
   void run(const std::function<bool()>& go_on);
@@ -53,6 +56,7 @@ class Loop {
   LoopStatistics statistics() const;
 
  private:
+  void resume(SavedCapture saved);
   const Moment& look();
   void hold_exposure(bool hold);
   void record(const Moment& moment);

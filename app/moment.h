@@ -3,12 +3,15 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "geometry/pose.h"
 #include "hal/camera.h"
 #include "hal/frame.h"
+#include "tracking/map_view.h"
+#include "tracking/pose_refinement.h"
 #include "tracking/tracked_frame.h"
 
 namespace lumibox::app {
@@ -18,6 +21,8 @@ struct MapNow {
   std::uint64_t revision = 0;
   std::function<std::optional<geometry::Similarity>(tracking::KeyframeId)> world_from_keyframe;
   std::function<std::vector<Eigen::Vector3d>()> points;  ///< the reliable ones, in world
+  /// All of it, to be kept; null before there is a map.
+  std::function<std::shared_ptr<const tracking::MapView>()> copy;
 };
 
 /// All that the modes see of the world in one tick.
@@ -28,6 +33,8 @@ struct Moment {
   double tracking_ms = 0.0;                 ///< time spent tracking it; 0 on a virtual clock
   tracking::TrackedFrame tracked;           ///< of `frame`
   std::vector<Eigen::Vector3d> map_points;  ///< in world, those seen in `frame`
+  /// What the pose of `frame` was estimated from; valid until the next one is tracked.
+  const tracking::FrameMeasurements* measurements = nullptr;
   MapNow map;
 
   bool tracking_is_good() const {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "app/moment.h"
 #include "config/config.h"
 #include "geometry/camera.h"
+#include "lightfield/capture.h"
 #include "lightfield/light_field.h"
 #include "lightfield/store.h"
 #include "tracking/tracked_frame.h"
@@ -32,6 +34,15 @@ class Recorder {
   /// brings it to disk while this one begins. The sphere hangs on the keyframe of `moment`.
   void begin(const lightfield::Sphere& sphere, const Moment& moment, std::filesystem::path folder);
 
+  /// Goes on with a capture that was loaded, in its folder. `map` is the one that was kept with it,
+  /// as the tracker goes on in it now: all poses move to where it has them, and what hung on
+  /// keyframes that it came too early for hangs on others. Without a map nothing is moved or
+  /// recorded any more: there is no telling where these perspectives are in another world.
+  void resume(lightfield::Capture capture, const MapNow* map);
+
+  /// Ends the capture under way as begin() does, and begins none.
+  void close(const MapNow& map);
+
   /// Thesis 2.3, with `threshold` in radians: true if the moment's picture should be recorded.
   bool accepts(const Moment& moment, double threshold) const;
 
@@ -43,6 +54,13 @@ class Recorder {
 
   /// Moves what the map has moved by more than `tolerance`, a share of the distance to the subject.
   void follow_map(const MapNow& map, double tolerance);
+
+  /// Keeps the map of the moment in the capture's folder if it has changed and that is some time
+  /// ago: the capture can be gone on with in it.
+  void keep_map(const Moment& moment);
+
+  /// Keeps the gate's threshold (radians) for whoever goes on with the capture.
+  void set_threshold(double threshold);
 
   /// Ends the capture after the last correction of the map, and waits until all captures are on
   /// disk: poses, the map's points, pictures. Throws config::InputError if something of any of them
@@ -56,7 +74,9 @@ class Recorder {
 
  private:
   void open_store();
+  void keep_map(const MapNow& map);
   void end_capture(const MapNow& map);
+  void refine(const MapNow& map);
   void follow_subject(const MapNow& map, double tolerance);
 
   std::shared_ptr<const geometry::Camera> camera_;
@@ -69,12 +89,12 @@ class Recorder {
   std::vector<std::unique_ptr<lightfield::Store>> ended_stores_;
   std::optional<std::string> open_error_;
   std::optional<std::uint64_t> map_revision_;  ///< that all poses agree with; none: to be checked
-  tracking::KeyframeId subject_keyframe_ = -1;
-  Eigen::Vector3d subject_in_keyframe_ = Eigen::Vector3d::Zero();
+  /// Of the perspectives recorded here, by id.
+  std::map<int, tracking::FrameMeasurements> measurements_;
+  bool in_this_world_ = true;  ///< the capture's world is the tracker's
+  std::optional<double> threshold_;
+  std::optional<std::uint64_t> kept_revision_;  ///< of the map on disk
+  std::int64_t kept_at_ns_ = 0;                 ///< time of its frame
 };
-
-/// Folder of a new capture in `captures`: capture-0001, capture-0002, …, the first that is not
-/// there.
-std::filesystem::path next_capture_folder(const std::filesystem::path& captures);
 
 }  // namespace lumibox::app

@@ -9,6 +9,7 @@ namespace {
 constexpr render::Color kWhite{1.0F, 1.0F, 1.0F, 1.0F};
 constexpr render::Color kYellow{1.0F, 0.85F, 0.2F, 1.0F};
 constexpr render::Color kRed{1.0F, 0.35F, 0.3F, 1.0F};
+constexpr float kLetterWidth = 0.6F;  // of the size: more than the mean of any sentence
 
 }  // namespace
 
@@ -51,14 +52,33 @@ void Screen::draw_text(const Picture& picture) {
   std::vector<render::Text> lines;
   float baseline = margin + size;
   lines.push_back({picture.title, margin, baseline, size, kWhite});
+  const float alert_size = 0.8F * size;
+  const auto letters = static_cast<std::size_t>(std::max(
+      1.0F, (static_cast<float>(display_.width()) - 2.0F * margin) / (kLetterWidth * alert_size)));
   for (const std::string& alert : picture.alerts) {
-    baseline += 1.4F * size;
-    lines.push_back({alert, margin, baseline, 0.8F * size, kRed});
+    for (const std::string& line : wrapped(alert, letters)) {
+      baseline += 1.4F * size;
+      lines.push_back({line, margin, baseline, alert_size, kRed});
+    }
   }
   if (!picture.advice.empty()) {
     lines.push_back({picture.advice, margin, height - margin, size, kYellow});
   }
   overlay_.draw_text(lines, display_.width(), display_.height(), display_.framebuffer());
+}
+
+std::vector<std::string> wrapped(const std::string& text, std::size_t letters) {
+  std::vector<std::string> lines;
+  std::size_t begin = 0;
+  while (text.size() - begin > letters) {
+    const std::size_t space = text.rfind(' ', begin + letters);
+    const bool between_words = space != std::string::npos && space > begin;
+    const std::size_t end = between_words ? space : begin + letters;
+    lines.push_back(text.substr(begin, end - begin));
+    begin = between_words ? end + 1 : end;
+  }
+  lines.push_back(text.substr(begin));
+  return lines;
 }
 
 geometry::Camera fitted_camera(const geometry::Camera& camera, int width, int height) {

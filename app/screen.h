@@ -38,4 +38,8 @@ class Screen {
 /// possible, in the middle of a picture of the given size.
 geometry::Camera fitted_camera(const geometry::Camera& camera, int width, int height);
 
+/// The text in lines of at most `letters` letters, broken between words, or within one that is
+/// longer than a line, as a path may be. Precondition: letters > 0.
+std::vector<std::string> wrapped(const std::string& text, std::size_t letters);
+
 }  // namespace lumibox::app

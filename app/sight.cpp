@@ -15,7 +15,8 @@ MapNow map_of(const tracking::Tracker& tracker) {
     return positions;
   };
   return {tracker.map_revision(),
-          [&tracker](tracking::KeyframeId id) { return tracker.world_from_keyframe(id); }, points};
+          [&tracker](tracking::KeyframeId id) { return tracker.world_from_keyframe(id); }, points,
+          [&tracker] { return tracker.map(); }};
 }
 
 Sight::Sight(hal::Camera& camera, const hal::Clock& clock, tracking::Tracker& tracker)
@@ -33,6 +34,7 @@ const Moment& Sight::look() {
         tracker_.track(*moment_.frame.gray, moment_.frame.index, moment_.frame.timestamp_ns);
     moment_.tracking_ms = 1e-6 * static_cast<double>(clock_.now_ns() - moment_.now_ns);
     moment_.map_points = tracker_.visible_points();
+    moment_.measurements = &tracker_.measurements();
   }
   moment_.map.revision = tracker_.map_revision();
   return moment_;

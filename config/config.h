@@ -40,6 +40,7 @@ struct Capture {
   double depth_step = 0.05;           ///< one press of +/-: relative step of inverse depth
   double moved_share = 0.002;  ///< correction of the map below which a recorded pose is left alone,
                                ///< as a share of the distance to the subject
+  double map_interval_s = 5.0;      ///< between two times that the map is kept with the capture
   std::string folder = "captures";  ///< where `run` keeps its captures
 };
 

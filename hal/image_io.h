@@ -30,7 +30,10 @@ std::vector<std::uint8_t> encode_jpeg(const Image& image, int quality);
 /// Picture of JPEG bytes; `name` is what error messages call it.
 Image decode_jpeg(std::span<const std::uint8_t> bytes, const std::filesystem::path& name);
 
-/// Lossless PNG. Throws config::InputError if the file cannot be written.
+/// PNG bytes of a picture: lossless.
+std::vector<std::uint8_t> encode_png(const Image& image);
+
+/// Writes encode_png(). Throws config::InputError if the file cannot be written.
 void write_png(const std::filesystem::path& path, const Image& image);
 
 }  // namespace lumibox::hal

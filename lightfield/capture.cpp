@@ -19,6 +19,7 @@ Capture load_capture(const fs::path& folder) {
   Transforms transforms = read_transforms(folder / kTransformsFile, Dialect::Capture);
   Capture capture;
   capture.folder = folder;
+  capture.threshold = transforms.threshold;
   if (transforms.points_file) capture.points = read_ply(folder / *transforms.points_file);
   for (Perspective& perspective : transforms.perspectives) {
     perspective.color = read_picture(folder / perspective.file, *perspective.camera);
@@ -32,8 +33,11 @@ void save_capture(const Capture& capture, const fs::path& folder, int jpeg_quali
   make_new_folder(files, folder);
   const std::vector<Perspective> perspectives = copy_pictures(capture, folder, jpeg_quality, files);
   if (!capture.points.empty()) files.write(folder / kPointsFile, encode_ply(capture.points));
-  files.write(folder / kTransformsFile, transforms_json(perspectives, capture.light_field.subject(),
-                                                        !capture.points.empty(), OwnKeys::With));
+  files.write(
+      folder / kTransformsFile,
+      transforms_json(perspectives,
+                      {capture.light_field.subject(), capture.threshold, !capture.points.empty()},
+                      OwnKeys::With));
 }
 
 }  // namespace lumibox::lightfield

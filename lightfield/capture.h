@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "lightfield/light_field.h"
@@ -11,6 +12,7 @@ namespace lumibox::lightfield {
 struct Capture {
   LightField light_field;
   std::vector<Eigen::Vector3d> points;  ///< in world; may be empty
+  std::optional<double> threshold;      ///< of the gate it was last recorded with, radians
   /// Where the pictures' original files lie: Perspective::file is relative to it. Empty if there
   /// are none.
   std::filesystem::path folder;

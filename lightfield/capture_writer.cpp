@@ -17,11 +17,30 @@ void require_finite(int id, const geometry::Pose& pose) {
 }  // namespace
 
 CaptureWriter::CaptureWriter(std::filesystem::path folder, int jpeg_quality, DurableFiles files)
-    : folder_(std::move(folder)), jpeg_quality_(jpeg_quality), files_(std::move(files)) {
+    : folder_(std::move(folder)),
+      jpeg_quality_(jpeg_quality),
+      files_(std::move(files)),
+      map_(folder_, 0) {
   make_new_folder(files_, folder_);
   changed_ = true;
   commit();
   files_.make_folder(folder_ / kImagesFolder);
+}
+
+CaptureWriter::CaptureWriter(const Capture& capture, std::size_t keyframes, int jpeg_quality,
+                             DurableFiles files)
+    : folder_(capture.folder),
+      jpeg_quality_(jpeg_quality),
+      files_(std::move(files)),
+      map_(folder_, keyframes),
+      header_{capture.light_field.subject(), capture.threshold, !capture.points.empty()},
+      changed_(true) {
+  for (const Perspective& perspective : capture.light_field.perspectives()) {
+    named_[perspective.id] = perspective;
+    named_[perspective.id].color.reset();
+    named_on_disk_.insert(perspective.file);
+  }
+  pictures_ = named_on_disk_;
 }
 
 void CaptureWriter::put(const Perspective& perspective) {
@@ -51,7 +70,7 @@ void CaptureWriter::restore(const Perspective& perspective) {
 
 void CaptureWriter::set_subject(const Sphere& sphere) {
   commit();  // what came before this move is written without it
-  subject_ = sphere;
+  header_.subject = sphere;
   moved_ = true;
 }
 
@@ -64,10 +83,32 @@ void CaptureWriter::set_pose(int id, const geometry::Pose& world_from_camera) {
   moved_ = true;
 }
 
+void CaptureWriter::hang(int id, int keyframe, const geometry::Pose& keyframe_from_camera) {
+  const auto found = named_.find(id);
+  if (found == named_.end()) return;
+  require_finite(id, keyframe_from_camera);
+  commit();  // likewise
+  found->second.keyframe = keyframe;
+  found->second.keyframe_from_camera = keyframe_from_camera;
+  moved_ = true;
+}
+
 void CaptureWriter::set_points(const std::vector<Eigen::Vector3d>& points) {
   files_.write(folder_ / kPointsFile, encode_ply(points));
-  if (!has_points_) changed_ = true;
-  has_points_ = true;
+  if (!header_.has_points) changed_ = true;
+  header_.has_points = true;
+}
+
+void CaptureWriter::set_map(const tracking::MapView& map, const geometry::Camera& camera) {
+  // A capture that is gone on with may hang on keyframes that went with the power, and this map
+  // may have others of their numbers: what it hangs on now goes first.
+  commit();
+  map_.write(map, camera, files_);
+}
+
+void CaptureWriter::set_threshold(double radians) {
+  header_.threshold = radians;
+  moved_ = true;
 }
 
 void CaptureWriter::commit_moves() {
@@ -83,8 +124,7 @@ void CaptureWriter::commit() {
     perspectives.push_back(perspective);
     files.insert(perspective.file);
   }
-  files_.write(folder_ / kTransformsFile,
-               transforms_json(perspectives, subject_, has_points_, OwnKeys::With));
+  files_.write(folder_ / kTransformsFile, transforms_json(perspectives, header_, OwnKeys::With));
   named_on_disk_ = std::move(files);
   changed_ = false;
   moved_ = false;

@@ -7,8 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "lightfield/capture.h"
 #include "lightfield/durable_files.h"
+#include "lightfield/map_files.h"
 #include "lightfield/perspective.h"
+#include "lightfield/transforms.h"
 
 namespace lumibox::lightfield {
 
@@ -20,15 +23,29 @@ class CaptureWriter {
   /// Makes the folder with an empty capture in it.
   CaptureWriter(std::filesystem::path folder, int jpeg_quality, DurableFiles files);
 
+  /// Goes on with the capture that is in capture.folder already, and with the first `keyframes`
+  /// keyframes of the map there. Writes nothing yet; the first commit after any change writes what
+  /// `capture` says.
+  CaptureWriter(const Capture& capture, std::size_t keyframes, int jpeg_quality,
+                DurableFiles files);
+
   void add(const Perspective& perspective);
   void remove(int id);
   void restore(const Perspective& perspective);
   void set_points(const std::vector<Eigen::Vector3d>& points);
 
+  /// Writes the map, after what perspectives hang on in it.
+  void set_map(const tracking::MapView& map, const geometry::Camera& camera);
+
+  /// Waits for the next commit, as moves do.
+  void set_threshold(double radians);
+
   /// Moves, of which a correction of the map makes many, wait for the next commit after a change
   /// of another kind; no commit ever writes a part of them.
   void set_subject(const Sphere& sphere);
   void set_pose(int id, const geometry::Pose& world_from_camera);
+
+  void hang(int id, int keyframe, const geometry::Pose& keyframe_from_camera);
 
   /// Brings transforms.json up to date if something but moves has changed.
   void commit();
@@ -46,9 +63,9 @@ class CaptureWriter {
   std::filesystem::path folder_;
   int jpeg_quality_;
   DurableFiles files_;
+  MapWriter map_;
   std::map<int, Perspective> named_;  ///< by id, without their pictures
-  std::optional<Sphere> subject_;
-  bool has_points_ = false;
+  TransformsHeader header_;
   bool changed_ = false;                 ///< there is something that commit() must write
   bool moved_ = false;                   ///< there are moves that wait for it
   std::set<std::string> pictures_;       ///< written in this capture

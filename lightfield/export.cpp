@@ -17,7 +17,8 @@ void export_capture(const Capture& capture, ExportFormat format,
       if (!capture.points.empty()) files.write(folder / kPointsFile, encode_ply(capture.points));
       files.write(
           folder / kTransformsFile,
-          transforms_json(perspectives, std::nullopt, !capture.points.empty(), OwnKeys::Without));
+          transforms_json(perspectives, {std::nullopt, std::nullopt, !capture.points.empty()},
+                          OwnKeys::Without));
       break;
     case ExportFormat::Colmap:
       write_colmap(perspectives, capture.points, folder, files);

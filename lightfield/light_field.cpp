@@ -82,14 +82,27 @@ std::optional<Perspective> LightField::undo_wipe() {
   return *perspectives_.insert(place, std::move(perspective));
 }
 
-bool LightField::set_pose(int id, const geometry::Pose& world_from_camera) {
-  auto found = find_id(perspectives_, id);
-  if (found == perspectives_.end()) {
-    found = std::find_if(wiped_.begin(), wiped_.end(),
-                         [id](const Perspective& wiped) { return wiped.id == id; });
-    if (found == wiped_.end()) return false;
+Perspective* LightField::find(int id) {
+  for (auto* among : {&perspectives_, &wiped_}) {
+    const auto found = std::ranges::find(*among, id, &Perspective::id);
+    if (found != among->end()) return &*found;
   }
-  found->world_from_camera = world_from_camera;
+  return nullptr;
+}
+
+bool LightField::set_pose(int id, const geometry::Pose& world_from_camera) {
+  Perspective* const perspective = find(id);
+  if (perspective == nullptr) return false;
+  perspective->world_from_camera = world_from_camera;
+  ++revision_;
+  return true;
+}
+
+bool LightField::hang(int id, int keyframe, const geometry::Pose& keyframe_from_camera) {
+  Perspective* const perspective = find(id);
+  if (perspective == nullptr) return false;
+  perspective->keyframe = keyframe;
+  perspective->keyframe_from_camera = keyframe_from_camera;
   ++revision_;
   return true;
 }

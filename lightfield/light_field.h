@@ -56,7 +56,13 @@ class LightField {
   /// id.
   bool set_pose(int id, const geometry::Pose& world_from_camera);
 
+  /// Has a perspective hang on a keyframe in another way; it moves when its pose is set. A wiped
+  /// one too; false if there is no such id.
+  bool hang(int id, int keyframe, const geometry::Pose& keyframe_from_camera);
+
  private:
+  Perspective* find(int id);
+
   std::vector<Perspective> perspectives_;  ///< ids ascend
   std::vector<Perspective> wiped_;         ///< the last wiped one last
   std::optional<Sphere> subject_;

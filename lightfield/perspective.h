@@ -15,6 +15,9 @@ namespace lumibox::lightfield {
 struct Sphere {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< in world
   double radius = 1.0;                               ///< world units
+  /// The map keyframe that the centre hangs on, as a perspective's pose does; -1 for none.
+  int keyframe = -1;
+  Eigen::Vector3d center_in_keyframe = Eigen::Vector3d::Zero();
 };
 
 /// One recorded picture and where it was taken, an element of the thesis' set C.

@@ -17,8 +17,7 @@ class Store::Impl {
  public:
   using Change = std::function<void(CaptureWriter&)>;
 
-  Impl(const std::filesystem::path& folder, int jpeg_quality, Writing writing, DurableFiles files)
-      : writer_(folder, jpeg_quality, std::move(files)) {
+  Impl(CaptureWriter writer, Writing writing) : writer_(std::move(writer)) {
     if (writing == Writing::Threaded) thread_ = std::thread([this] { run(); });
   }
 
@@ -37,6 +36,17 @@ class Store::Impl {
       queue_.push_back(std::move(change));
     }
     wake_.notify_all();
+  }
+
+  void post_map(std::shared_ptr<const tracking::MapView> map,
+                std::shared_ptr<const geometry::Camera> camera) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (std::exchange(map_, std::move(map))) return;  // one is on its way: this in its place
+    }
+    post([this, camera = std::move(camera)](CaptureWriter& writer) {
+      writer.set_map(*take_map(), *camera);
+    });
   }
 
   void end() {
@@ -74,6 +84,11 @@ class Store::Impl {
   const std::filesystem::path& folder() const { return writer_.folder(); }
 
  private:
+  std::shared_ptr<const tracking::MapView> take_map() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(map_, nullptr);
+  }
+
   void run() {
     std::unique_lock lock(mutex_);
     while (true) {
@@ -113,6 +128,7 @@ class Store::Impl {
   std::condition_variable wake_;
   std::condition_variable idle_;
   std::vector<Change> queue_;
+  std::shared_ptr<const tracking::MapView> map_;  ///< that waits to be written
   std::optional<std::string> error_;
   bool busy_ = false;
   bool ending_ = false;  ///< set by the caller's thread, which alone reads it unguarded
@@ -121,7 +137,13 @@ class Store::Impl {
 
 Store::Store(const std::filesystem::path& folder, int jpeg_quality, Writing writing,
              DurableFiles files)
-    : impl_(std::make_unique<Impl>(folder, jpeg_quality, writing, std::move(files))) {}
+    : impl_(
+          std::make_unique<Impl>(CaptureWriter(folder, jpeg_quality, std::move(files)), writing)) {}
+
+Store::Store(const Capture& capture, std::size_t keyframes, int jpeg_quality, Writing writing,
+             DurableFiles files)
+    : impl_(std::make_unique<Impl>(
+          CaptureWriter(capture, keyframes, jpeg_quality, std::move(files)), writing)) {}
 
 Store::~Store() = default;
 
@@ -148,8 +170,22 @@ void Store::set_pose(int id, const geometry::Pose& world_from_camera) {
       [id, world_from_camera](CaptureWriter& writer) { writer.set_pose(id, world_from_camera); });
 }
 
+void Store::hang(int id, int keyframe, const geometry::Pose& keyframe_from_camera) {
+  impl_->post([=](CaptureWriter& writer) { writer.hang(id, keyframe, keyframe_from_camera); });
+}
+
 void Store::set_points(std::vector<Eigen::Vector3d> points) {
   impl_->post([points = std::move(points)](CaptureWriter& writer) { writer.set_points(points); });
+}
+
+void Store::set_map(std::shared_ptr<const tracking::MapView> map,
+                    std::shared_ptr<const geometry::Camera> camera) {
+  assert(map && camera);
+  impl_->post_map(std::move(map), std::move(camera));
+}
+
+void Store::set_threshold(double radians) {
+  impl_->post([radians](CaptureWriter& writer) { writer.set_threshold(radians); });
 }
 
 std::optional<std::string> Store::error() const {

@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "lightfield/capture.h"
 #include "lightfield/durable_files.h"
 #include "lightfield/light_field.h"
+#include "tracking/map_view.h"
 
 namespace lumibox::lightfield {
 
@@ -28,6 +30,12 @@ class Store {
   Store(const std::filesystem::path& folder, int jpeg_quality, Writing writing,
         DurableFiles files = {});
 
+  /// Goes on with a capture that was loaded, in capture.folder, and with the first `keyframes`
+  /// keyframes of the map there (0 if the map there is not gone on with). Nothing is written before
+  /// something changes.
+  Store(const Capture& capture, std::size_t keyframes, int jpeg_quality, Writing writing,
+        DurableFiles files = {});
+
   /// end(), and waits for it.
   ~Store();
   Store(const Store&) = delete;
@@ -41,10 +49,20 @@ class Store {
   void restore(const Perspective& perspective);
   void set_points(std::vector<Eigen::Vector3d> points);
 
+  /// Keeps the map that the poses are in. Of several that wait the newest alone is written.
+  void set_map(std::shared_ptr<const tracking::MapView> map,
+               std::shared_ptr<const geometry::Camera> camera);
+
   /// A correction of the map moves the sphere and many perspectives at once: moves are written
   /// together, with the next change of another kind or flush(). Unknown ids are ignored.
   void set_subject(const Sphere& sphere);
   void set_pose(int id, const geometry::Pose& world_from_camera);
+
+  /// Has a perspective hang on a keyframe in another way. Written as moves are.
+  void hang(int id, int keyframe, const geometry::Pose& keyframe_from_camera);
+
+  /// Of the gate, radians. Written as moves are.
+  void set_threshold(double radians);
 
   /// First error of the writer (disk full, folder gone), as a sentence with the path; none if all
   /// is well. After an error nothing more is written: what was complete before stays loadable.

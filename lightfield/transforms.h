@@ -21,15 +21,23 @@ std::string picture_file(int id, const std::string& extension = ".jpg");
 /// Whether the box's own keys, which other programs ignore, are written too.
 enum class OwnKeys { With, Without };
 
+/// What a transforms.json says besides its perspectives.
+struct TransformsHeader {
+  std::optional<Sphere> subject;
+  std::optional<double> threshold;  ///< of the gate, radians
+  bool has_points = false;
+};
+
 /// Text of a transforms.json as nerfstudio wants it (docs/capture-format.md). Only pose, camera,
 /// file, timestamp, id and keyframe of the perspectives are used.
 std::string transforms_json(std::span<const Perspective> perspectives,
-                            const std::optional<Sphere>& subject, bool has_points, OwnKeys keys);
+                            const TransformsHeader& header, OwnKeys keys);
 
 /// What a transforms.json says; pictures not read yet, perspectives without `color`.
 struct Transforms {
   std::vector<Perspective> perspectives;
   std::optional<Sphere> subject;
+  std::optional<double> threshold;  ///< of the gate, radians
   std::optional<std::string> points_file;
 };
 

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "config/error.h"
@@ -119,9 +120,11 @@ geometry::Pose read_matrix(const JsonValue& value, double tolerance) {
   return *pose;
 }
 
+/// Of perspectives and keyframes.
+constexpr long long kLargestId = 1LL << 30;
+
 /// The members under "lumibox" of a frame.
 void read_own_keys(const JsonValue& own, Perspective* perspective) {
-  constexpr long long kLargestId = 1LL << 30;
   perspective->id = static_cast<int>(own.at("id").integer(0, kLargestId));
   perspective->timestamp_ns = own.at("timestamp_ns").integer(-kLatestNs, kLatestNs);
   if (!own.has("keyframe")) return;
@@ -143,7 +146,20 @@ Sphere read_sphere(const JsonValue& subject) {
   if (!(sphere.radius > 0.0 && sphere.radius <= geometry::kLargestCoordinate)) {
     subject.at("radius").fail("is " + to_text(sphere.radius) + ", expected more than 0, up to 1e9");
   }
+  if (subject.has("keyframe")) {
+    const JsonValue center = subject.at("center_in_keyframe");
+    sphere.keyframe = static_cast<int>(subject.at("keyframe").integer(0, kLargestId));
+    sphere.center_in_keyframe = checked_position(center.numbers(3), center);
+  }
   return sphere;
+}
+
+double read_threshold(const JsonValue& value) {
+  const double degrees = value.number();
+  if (!(degrees > 0.0 && degrees <= 180.0)) {
+    value.fail("is " + to_text(degrees) + ", expected more than 0, up to 180");
+  }
+  return degrees * std::numbers::pi / 180.0;
 }
 
 /// The text at `value`, a path of a file in the same folder or below.
@@ -206,6 +222,7 @@ Transforms read_transforms(const fs::path& file, Dialect dialect) {
     const JsonValue keys = top.at("lumibox");
     keys.at("version").integer(1, 1);
     if (keys.has("subject")) transforms.subject = read_sphere(keys.at("subject"));
+    if (keys.has("threshold_deg")) transforms.threshold = read_threshold(keys.at("threshold_deg"));
   }
   if (top.has("ply_file_path")) {
     transforms.points_file = read_path(top.at("ply_file_path"));

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "config/error.h"
 #include "geometry/rotation.h"
@@ -42,6 +43,15 @@ Json to_json(const Eigen::Matrix4d& matrix) {
     rows.push_back({matrix(r, 0), matrix(r, 1), matrix(r, 2), matrix(r, 3)});
   }
   return rows;
+}
+
+Json to_json(const Sphere& sphere) {
+  Json json{{"center", to_json(sphere.center)}, {"radius", sphere.radius}};
+  if (sphere.keyframe >= 0) {
+    json["keyframe"] = sphere.keyframe;
+    json["center_in_keyframe"] = to_json(sphere.center_in_keyframe);
+  }
+  return json;
 }
 
 /// What nerfstudio does not know of a perspective. The keyframe's pose is a quaternion and keeps
@@ -95,19 +105,19 @@ std::string picture_file(int id, const std::string& extension) {
 }
 
 std::string transforms_json(std::span<const Perspective> perspectives,
-                            const std::optional<Sphere>& subject, bool has_points, OwnKeys keys) {
+                            const TransformsHeader& header, OwnKeys keys) {
   Json top{{"camera_model", model_of(perspectives)}};
   // nerfstudio looks at a frame's own intrinsics only where the top level has none.
   const bool shared_intrinsics = one_lens(perspectives);
   if (shared_intrinsics && !perspectives.empty()) {
     add_intrinsics(perspectives.front().camera->profile(), &top);
   }
-  if (has_points) top["ply_file_path"] = kPointsFile;
+  if (header.has_points) top["ply_file_path"] = kPointsFile;
   if (keys == OwnKeys::With) {
     top["lumibox"] = {{"version", 1}};
-    if (subject) {
-      top["lumibox"]["subject"] = {{"center", to_json(subject->center)},
-                                   {"radius", subject->radius}};
+    if (header.subject) top["lumibox"]["subject"] = to_json(*header.subject);
+    if (header.threshold) {
+      top["lumibox"]["threshold_deg"] = *header.threshold * 180.0 / std::numbers::pi;
     }
   }
 

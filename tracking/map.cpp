@@ -9,11 +9,30 @@ namespace {
 
 void append_point(MapView& view, PointId id, const Map::Point& point) {
   view.points.push_back({id, point.position, static_cast<std::uint32_t>(view.sightings.size()),
-                         static_cast<std::uint32_t>(point.sightings.size())});
+                         static_cast<std::uint32_t>(point.sightings.size()), point.searched,
+                         point.found});
   view.sightings.insert(view.sightings.end(), point.sightings.begin(), point.sightings.end());
 }
 
 }  // namespace
+
+Map::Map(const MapView& view) : next_point_(view.next_point) {
+  for (const MapView::Keyframe& k : view.keyframes) {
+    keyframes_.push_back({k.world_from_camera,
+                          k.readout_twist,
+                          k.pyramid,
+                          {},
+                          k.median_depth,
+                          k.scale,
+                          k.tied_to,
+                          k.tied_from_this});
+  }
+  for (const MapView::Point& p : view.points) {
+    const auto first = view.sightings.begin() + p.first_sighting;
+    points_[p.id] = {p.position, {first, first + p.sightings}, p.searched, p.found};
+    for (const Sighting& s : points_[p.id].sightings) keyframe(s.keyframe).points.push_back(p.id);
+  }
+}
 
 KeyframeId Map::add_keyframe(const geometry::FramePose& pose,
                              std::shared_ptr<const Pyramid> pyramid) {
@@ -123,7 +142,8 @@ MapView Map::view_without_points() const {
     const geometry::Similarity place =
         world_from_keyframe(static_cast<KeyframeId>(view.keyframes.size()));
     view.keyframes.push_back({place.rigid, place.rigid.inverse(), k.pyramid, k.median_depth,
-                              static_cast<int>(k.points.size()), place.scale});
+                              static_cast<int>(k.points.size()), place.scale, k.readout_twist,
+                              k.tied_to, k.tied_from_this});
   }
   return view;
 }
@@ -131,6 +151,7 @@ MapView Map::view_without_points() const {
 MapView Map::view(std::uint64_t revision) const {
   MapView view = view_without_points();
   view.revision = revision;
+  view.next_point = next_point_;
   view.points.reserve(points_.size());
   for (const auto& [id, p] : points_) append_point(view, id, p);
   return view;

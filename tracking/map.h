@@ -36,6 +36,11 @@ class Map {
     geometry::FramePose frame_pose() const { return {world_from_camera.inverse(), readout_twist}; }
   };
 
+  Map() = default;
+
+  /// The map that `view` is a copy of.
+  explicit Map(const MapView& view);
+
   KeyframeId add_keyframe(const geometry::FramePose& pose, std::shared_ptr<const Pyramid> pyramid);
   PointId add_point(const Eigen::Vector3d& position);
 

@@ -21,7 +21,8 @@ struct Sighting {
 };
 
 /// An immutable copy of the map, as the mapper last published it. The tracker works on one such
-/// copy at a time, so that neither ever waits for the other.
+/// copy at a time, so that neither ever waits for the other. It is all that there is to know: a map
+/// that is made of it (Map) goes on as the one that it was copied from.
 struct MapView {
   struct Keyframe {
     geometry::Pose world_from_camera;
@@ -30,6 +31,9 @@ struct MapView {
     double median_depth = 1.0;
     int points = 0;      ///< map points it sees
     double scale = 1.0;  ///< by which closing loops has multiplied the lengths around it
+    geometry::Vector6d readout_twist = geometry::Vector6d::Zero();  ///< see geometry::FramePose
+    KeyframeId tied_to = -1;                                        ///< see Map::Keyframe
+    geometry::Similarity tied_from_this = {};                       ///< likewise
 
     /// Taken out of the map: has no picture and no points, but goes on moving with its neighbour.
     bool culled() const { return pyramid == nullptr; }
@@ -43,6 +47,8 @@ struct MapView {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< in world
     std::uint32_t first_sighting = 0;                    ///< index into sightings
     std::uint32_t sightings = 0;
+    int searched = 0;  ///< see Map::Point
+    int found = 0;
   };
 
   std::uint64_t revision = 0;  ///< differs between any two published copies
@@ -50,6 +56,7 @@ struct MapView {
   std::vector<Keyframe> keyframes;  ///< by KeyframeId
   std::vector<Point> points;        ///< by ascending id
   std::vector<Sighting> sightings;  ///< of all points, one after the other
+  PointId next_point = 0;           ///< id of the next new point
 };
 
 }  // namespace lumibox::tracking

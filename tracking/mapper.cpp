@@ -52,6 +52,12 @@ void Mapper::start(const InitialMap& initial) {
   publish();
 }
 
+void Mapper::resume(const MapView& saved) {
+  map_ = Map(saved);
+  revision_ = saved.revision;
+  publish();
+}
+
 void Mapper::request(KeyframeRequest request) {
   if (mapping_ == Mapping::Lockstep) {
     attempt([&] { integrate(request); });

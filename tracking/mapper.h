@@ -49,13 +49,16 @@ class Mapper {
   /// The first map, made before the call returns. There must be none yet.
   void start(const InitialMap& initial);
 
+  /// Goes on with a map of before. There must be none yet.
+  void resume(const MapView& saved);
+
   /// In lockstep the map has changed when this returns.
   void request(KeyframeRequest request);
 
   /// True while requests wait or are worked on.
   bool busy() const;
 
-  /// The newest published copy; null before start().
+  /// The newest published copy; null before start() or resume().
   std::shared_ptr<const MapView> view() const;
 
   /// Works off all requests, then adjusts the whole map.

@@ -9,6 +9,7 @@
 #include "tracking/map_tracking.h"
 #include "tracking/mapper.h"
 #include "tracking/motion_model.h"
+#include "tracking/pose_refinement.h"
 #include "tracking/relocalisation.h"
 #include "tracking/relocaliser.h"
 #include "tracking/turn_follower.h"
@@ -35,6 +36,15 @@ class Tracker::Impl {
         chooser_(camera, options),
         localiser_(camera, options) {}
 
+  void resume(const MapView& saved) {
+    mapper_.resume(saved);
+    map_ = mapper_.view();
+    anchor_ = static_cast<KeyframeId>(map_->keyframes.size()) - 1;
+    while (anchor_ > 0 && keyframe(anchor_).culled()) --anchor_;
+    camera_from_world_ = keyframe(anchor_).camera_from_world;
+    lost_ = true;
+  }
+
   TrackedFrame track(const hal::Image& gray, std::int64_t index, std::int64_t timestamp_ns) {
     TrackedFrame result;
     result.index = index;
@@ -42,6 +52,7 @@ class Tracker::Impl {
     const auto frame = pyramids_.make(gray, options_.pyramid_levels);
     motion_.next_frame(*frame, timestamp_ns);
     visible_.clear();
+    measured_.points.clear();
     if (!map_) {
       initialise(frame, result);
     } else {
@@ -76,6 +87,8 @@ class Tracker::Impl {
     return map ? map->revision : 0;
   }
 
+  std::shared_ptr<const MapView> map() const { return mapper_.view(); }
+
   std::vector<MapPoint> points() const {
     std::vector<MapPoint> points;
     if (const auto map = mapper_.view()) {
@@ -87,6 +100,8 @@ class Tracker::Impl {
   }
 
   const std::vector<Eigen::Vector3d>& visible_points() const { return visible_; }
+
+  const FrameMeasurements& measurements() const { return measured_; }
 
   TrackerStatistics statistics() const {
     TrackerStatistics s;
@@ -164,8 +179,11 @@ class Tracker::Impl {
       if (!here || !is_verified(*here)) continue;
       places.push_back({here->pose.camera_from_world, here->inliers});
     }
-    const double seconds = 1e-9 * static_cast<double>(motion_.timestamp_ns() - last_pose_ns_);
-    const auto chosen = choose_place(places, {camera_from_world_, depth, seconds});
+    const double seconds = last_pose_ns_
+                               ? 1e-9 * static_cast<double>(motion_.timestamp_ns() - *last_pose_ns_)
+                               : std::numeric_limits<double>::infinity();
+    const auto chosen =
+        choose_place(places, {camera_from_world_, depth, seconds});
     if (!chosen) return nullptr;
     const Localisation* found =
         localiser_.localise(*map_, frame, places[*chosen].camera_from_world);
@@ -283,8 +301,11 @@ class Tracker::Impl {
 
   void show(const Localisation& found) {
     for (const Measurement& m : found.measurements) {
-      if (m.inlier) visible_.push_back(m.position);
+      if (!m.inlier) continue;
+      visible_.push_back(m.position);
+      measured_.points.push_back({map_->points[m.point].id, m.pixel.cast<float>(), m.level});
     }
+    measured_.readout_twist = found.pose.readout_twist;
   }
 
   const geometry::Camera camera_;
@@ -308,15 +329,24 @@ class Tracker::Impl {
   bool lost_ = false;
   bool jumped_ = false;  // this frame was located anew
   int bad_frames_ = 0;
-  std::int64_t last_pose_ns_ = 0;  // of the last good one
+  std::optional<std::int64_t> last_pose_ns_;  // of the last good one; none since a resume
   int relocalisations_ = 0;
   std::vector<Eigen::Vector3d> visible_;
+  FrameMeasurements measured_;
 };
 
 Tracker::Tracker(const geometry::Camera& camera, const config::Tracking& options, Mapping mapping,
-                 std::uint32_t seed)
-    : impl_(std::make_unique<Impl>(camera, options, mapping, seed)) {}
+                 std::uint32_t seed, std::shared_ptr<const MapView> saved)
+    : begin_([=] { return std::make_unique<Impl>(camera, options, mapping, seed); }),
+      impl_(begin_()) {
+  if (saved) impl_->resume(*saved);
+}
 Tracker::~Tracker() = default;
+
+void Tracker::start_over() {
+  impl_.reset();  // first, for its thread must not run beside another
+  impl_ = begin_();
+}
 
 TrackedFrame Tracker::track(const hal::Image& gray, std::int64_t index, std::int64_t timestamp_ns) {
   return impl_->track(gray, index, timestamp_ns);
@@ -327,11 +357,17 @@ std::optional<geometry::Similarity> Tracker::world_from_keyframe(KeyframeId id) 
 std::uint64_t Tracker::map_revision() const {
   return impl_->map_revision();
 }
+std::shared_ptr<const MapView> Tracker::map() const {
+  return impl_->map();
+}
 std::vector<MapPoint> Tracker::points() const {
   return impl_->points();
 }
 std::vector<Eigen::Vector3d> Tracker::visible_points() const {
   return impl_->visible_points();
+}
+const FrameMeasurements& Tracker::measurements() const {
+  return impl_->measurements();
 }
 TrackerStatistics Tracker::statistics() const {
   return impl_->statistics();

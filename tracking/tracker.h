@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +14,9 @@
 #include "tracking/tracked_frame.h"
 
 namespace lumibox::tracking {
+
+struct FrameMeasurements;
+struct MapView;
 
 /// A point of the map as others see it.
 struct MapPoint {
@@ -38,11 +42,17 @@ enum class Mapping {
 /// with a reason, never an exception.
 class Tracker {
  public:
+  /// With a `saved` map of the same camera it goes on in that: lost at first, until a known place
+  /// shows; whatever the pictures show, no other map begins by itself. Keyframes keep their ids.
   Tracker(const geometry::Camera& camera, const config::Tracking& options, Mapping mapping,
-          std::uint32_t seed);
+          std::uint32_t seed, std::shared_ptr<const MapView> saved = nullptr);
   ~Tracker();
   Tracker(const Tracker&) = delete;
   Tracker& operator=(const Tracker&) = delete;
+
+  /// Forgets the map, because the person asks for it: the next frames begin a new one, in a world
+  /// of its own.
+  void start_over();
 
   /// Tracks one frame of the camera's size. Frames come in order of time.
   TrackedFrame track(const hal::Image& gray, std::int64_t index, std::int64_t timestamp_ns);
@@ -55,11 +65,17 @@ class Tracker {
   /// Counts map corrections: while it stays the same, no keyframe has moved.
   std::uint64_t map_revision() const;
 
+  /// All of the map as it is now, to be kept; null before there is one.
+  std::shared_ptr<const MapView> map() const;
+
   /// Copy of the map's reliable points.
   std::vector<MapPoint> points() const;
 
   /// Points that the last tracked frame measured, in world.
   std::vector<Eigen::Vector3d> visible_points() const;
+
+  /// All that the pose of the last tracked frame was estimated from.
+  const FrameMeasurements& measurements() const;
 
   TrackerStatistics statistics() const;
 
@@ -75,6 +91,7 @@ class Tracker {
 
  private:
   class Impl;
+  std::function<std::unique_ptr<Impl>()> begin_;  ///< without a map
   std::unique_ptr<Impl> impl_;
 };
 

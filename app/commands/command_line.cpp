@@ -121,6 +121,11 @@ void add_track(CLI::App& app) {
       ->type_name("CALIB");
   command->add_flag("--realtime", options->realtime,
                     "play at the recorded rate; frames that come too fast are dropped");
+  command
+      ->add_option("--resume", options->resume,
+                   "go on in the map that was kept with this capture; with the same folder as "
+                   "--capture go on with the capture, too")
+      ->type_name("CAPTURE");
   CLI::Option* capture =
       command->add_option("--capture", options->capture, "record a light field into this folder")
           ->type_name("DIR");

@@ -36,7 +36,8 @@ struct TrackOptions {
   std::optional<std::filesystem::path> plot;
   std::optional<std::filesystem::path> calibration;
   std::optional<std::filesystem::path> capture;
-  std::optional<SubjectPixel> subject;  ///< none: the middle, as soon as possible
+  std::optional<SubjectPixel> subject;          ///< none: the middle, as soon as possible
+  std::optional<std::filesystem::path> resume;  ///< capture in whose map to go on
   std::uint32_t seed = 0;
   bool realtime = false;
 };

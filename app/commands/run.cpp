@@ -20,7 +20,9 @@ void run(const RunOptions& options) {
   const config::Config config = load_config(options.sources);
   Devices devices = open_devices(config);
   make_folder(config.capture.folder);
-  Loop loop(devices, config, config.capture.folder, devices.lockstep ? kLockstep : kThreaded);
+  const geometry::Camera camera(devices.camera->profile());
+  Loop loop(devices, config, config.capture.folder, devices.lockstep ? kLockstep : kThreaded,
+            find_saved_capture(config.capture.folder, camera, config.tracking.pyramid_levels));
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
   loop.run_and_finish(

@@ -10,6 +10,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/support.h"
 #include "app/progress.h"
+#include "app/saved_capture.h"
 #include "app/sight.h"
 #include "app/threading.h"
 #include "app/track_picture.h"
@@ -95,6 +96,33 @@ void say(const TrackReport& report, const nlohmann::json& json) {
   }
 }
 
+/// True if the capture to be made is the one that is gone on with.
+bool goes_on_with_capture(const TrackOptions& options) {
+  std::error_code ignored;
+  return options.capture && options.resume &&
+         std::filesystem::equivalent(*options.capture, *options.resume, ignored);
+}
+
+/// What --resume names; throws config::InputError if there is no going on in it.
+std::optional<SavedCapture> load_saved(const TrackOptions& options, const geometry::Camera& camera,
+                                       int levels) {
+  if (!options.resume) {
+    return std::nullopt;
+  }
+  SavedCapture saved = load_saved_capture(*options.resume, camera, levels);
+  if (!saved.problem.empty()) {
+    throw config::InputError("--resume: " + saved.problem);
+  }
+  if (goes_on_with_capture(options)) {
+    subject_of(saved.capture);  // or the gate would have nothing to go by
+    if (options.subject) {
+      throw config::InputError("--subject: " + options.resume->string() +
+                               " is gone on with and has its subject; expected none");
+    }
+  }
+  return saved;
+}
+
 /// An hour of tracking must not end at a mistyped folder.
 void try_outputs(const TrackOptions& options) {
   std::vector<std::filesystem::path> files = {options.out};
@@ -102,7 +130,7 @@ void try_outputs(const TrackOptions& options) {
     if (file) files.push_back(*file);
   }
   require_distinct(files);
-  if (options.capture) {
+  if (options.capture && !goes_on_with_capture(options)) {
     lightfield::make_new_folder({}, *options.capture);
   }
   for (const auto& file : files) require_writable(file);
@@ -138,13 +166,18 @@ void track(const TrackOptions& options) {
     throw config::InputError("--subject: frame " + std::to_string(options.subject->frame) +
                              "; the recording has " + std::to_string(frames) + ", from 0");
   }
+  auto saved = load_saved(options, model, config.tracking.pyramid_levels);
   try_outputs(options);
   hal::SystemClock clock;
   hal::ReplayCamera camera(sequence, clock,
                            options.realtime ? hal::Pacing::Recorded : hal::Pacing::Lockstep);
-  tracking::Tracker tracker(model, config.tracking, threading.mapping, options.seed);
+  tracking::Tracker tracker(model, config.tracking, threading.mapping, options.seed,
+                            saved ? saved->map : nullptr);
   Sight sight(camera, clock, tracker);
   Recorder recorder(model, config.capture, threading.writing);
+  if (goes_on_with_capture(options)) {
+    recorder.resume(std::move(saved->capture), &sight.moment().map);
+  }
   std::optional<AutoCapture> capture;
   if (options.capture) {
     capture.emplace(recorder, model, config.capture, *options.capture, options.subject);

@@ -9,6 +9,7 @@ namespace lumibox::app {
 
 void CaptureMode::enter(const Moment&) {
   paused_ = false;
+  session_.recorder.set_threshold(session_.threshold);
 }
 
 ModeId CaptureMode::press(const Gesture& gesture, const Moment& moment) {
@@ -65,6 +66,7 @@ void CaptureMode::change_threshold(int steps) {
   session_.threshold =
       std::clamp(session_.threshold * std::pow(options.threshold_step, steps),
                  options.threshold_min_deg * kRadians, options.threshold_max_deg * kRadians);
+  session_.recorder.set_threshold(session_.threshold);
 }
 
 void CaptureMode::wipe(Press press, const Moment& moment) {

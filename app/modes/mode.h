@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "app/gestures.h"
@@ -11,15 +12,22 @@
 
 namespace lumibox::app {
 
+/// The last capture before the box was switched on, which has not been gone on with yet.
+struct WaitingCapture {
+  std::string name;
+  std::string problem;  ///< why it cannot be gone on with; empty: it can
+};
+
 /// What the modes share.
 struct Session {
   const config::Config& config;
   std::filesystem::path captures;  ///< folder in which each capture gets a folder of its own
   Recorder& recorder;
-  double threshold = 0.0;  ///< of the gate, radians
+  double threshold = 0.0;                                ///< of the gate, radians
+  std::optional<WaitingCapture> waiting = std::nullopt;  ///< in the recorder already
 };
 
-enum class ModeId { Acquire, Subject, Capture, Review };
+enum class ModeId { Acquire, Subject, Capture, Review, Resume };
 
 /// One thing the box can be doing. The box is in exactly one mode; a mode names the next by
 /// returning it, itself to stay. docs/using.md has the table of what each button does when.

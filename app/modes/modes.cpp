@@ -2,6 +2,7 @@
 
 #include "app/modes/acquire.h"
 #include "app/modes/capture.h"
+#include "app/modes/resume.h"
 #include "app/modes/review.h"
 #include "app/modes/subject.h"
 
@@ -9,19 +10,23 @@ namespace lumibox::app {
 
 Modes::Modes(Session& session, const geometry::Camera& camera)
     : modes_{std::make_unique<AcquireMode>(), std::make_unique<SubjectMode>(session, camera),
-             std::make_unique<CaptureMode>(session), std::make_unique<ReviewMode>(session)} {}
+             std::make_unique<CaptureMode>(session), std::make_unique<ReviewMode>(session),
+             std::make_unique<ResumeMode>(session)},
+      current_(session.waiting ? ModeId::Resume : ModeId::Acquire) {}
 
 Decision Modes::decide(const std::vector<Gesture>& gestures, const Moment& moment) {
+  start_over_ = false;
   for (const Gesture& gesture : gestures) {
     go_to(mode(current_).press(gesture, moment), moment);
   }
   go_to(mode(current_).update(moment), moment);
   const bool capturing = current_ == ModeId::Capture || current_ == ModeId::Review;
-  return {mode(current_).wants_to_record(moment), capturing};
+  return {mode(current_).wants_to_record(moment), capturing, start_over_};
 }
 
 void Modes::go_to(ModeId next, const Moment& moment) {
   while (next != current_) {
+    start_over_ = start_over_ || (current_ == ModeId::Resume && next == ModeId::Acquire);
     current_ = next;
     mode(current_).enter(moment);
     next = mode(current_).update(moment);  // so that it has something to show in this very tick

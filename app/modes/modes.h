@@ -12,9 +12,11 @@ namespace lumibox::app {
 struct Decision {
   bool record = false;         ///< the moment's picture belongs into the light field
   bool hold_exposure = false;  ///< a subject is being captured: its pictures should match
+  bool start_over = false;     ///< the capture that waited and its world are given up
 };
 
-/// Acquire → Subject → Capture ⇄ Review: the mode the box is in, and the way from one to the next.
+/// Acquire → Subject → Capture ⇄ Review, or from Resume to Capture: the mode the box is in, and the
+/// way from one to the next.
 class Modes {
  public:
   /// `session` must outlive the object.
@@ -30,8 +32,9 @@ class Modes {
   Mode& mode(ModeId id) const { return *modes_.at(static_cast<std::size_t>(id)); }
   void go_to(ModeId next, const Moment& moment);
 
-  std::array<std::unique_ptr<Mode>, 4> modes_;  ///< by ModeId
-  ModeId current_ = ModeId::Acquire;
+  std::array<std::unique_ptr<Mode>, 5> modes_;  ///< by ModeId
+  ModeId current_;
+  bool start_over_ = false;
 };
 
 }  // namespace lumibox::app

@@ -11,7 +11,7 @@ namespace lumibox::app {
 
 void ReviewMode::enter(const Moment& moment) {
   focus_steps_ = 0;
-  steering_ = moment.tracked.world_from_camera ? Steering::Box : Steering::Orbit;
+  steering_ = pose_of_box(moment) ? Steering::Box : Steering::Orbit;
   orbit_began_ns_ = moment.now_ns;
 }
 
@@ -27,7 +27,7 @@ ModeId ReviewMode::press(const Gesture& gesture, const Moment& moment) {
       }
       break;
     case hal::Button::Review:
-      return ModeId::Capture;
+      return session_.waiting ? ModeId::Resume : ModeId::Capture;
     case hal::Button::Plus:
     case hal::Button::Minus:
       focus_steps_ += steps_of(gesture);
@@ -42,8 +42,8 @@ ModeId ReviewMode::press(const Gesture& gesture, const Moment& moment) {
 ModeId ReviewMode::update(const Moment& moment) {
   if (steering_ == Steering::Box) {
     // Without a pose the view stays where it was.
-    world_from_view_ =
-        moment.tracked.world_from_camera ? moment.tracked.world_from_camera : world_from_view_;
+    const auto world_from_box = pose_of_box(moment);
+    world_from_view_ = world_from_box ? world_from_box : world_from_view_;
   } else {
     const double period_s = session_.config.controls.orbit_period_s;
     const double time_s = 1e-9 * static_cast<double>(moment.now_ns - orbit_began_ns_);
@@ -76,6 +76,12 @@ Picture ReviewMode::draw(const Moment& moment) const {
       LightFieldPicture{light_field.perspectives(),
                         render::settings_from(session_.config.render, aperture_, focus())};
   return picture;
+}
+
+/// None also where the box is in another world than the light field.
+std::optional<geometry::Pose> ReviewMode::pose_of_box(const Moment& moment) const {
+  const bool same_world = !session_.waiting || session_.waiting->problem.empty();
+  return same_world ? moment.tracked.world_from_camera : std::nullopt;
 }
 
 void ReviewMode::wipe(Press press) {

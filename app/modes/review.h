@@ -25,6 +25,7 @@ class ReviewMode : public Mode {
     Orbit,  ///< nobody: it goes slowly around the subject
   };
 
+  std::optional<geometry::Pose> pose_of_box(const Moment& moment) const;
   void wipe(Press press);
   Eigen::Vector3d focus() const;
 

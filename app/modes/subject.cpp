@@ -1,5 +1,7 @@
 #include "app/modes/subject.h"
 
+#include "app/saved_capture.h"
+
 namespace lumibox::app {
 
 SubjectMode::SubjectMode(Session& session, const geometry::Camera& camera)

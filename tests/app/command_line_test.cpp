@@ -204,6 +204,19 @@ TEST(CommandLine, SubjectInAFrameThatIsNotThereIsRefused) {
                    HasSubstr("--subject: frame 5; the recording has 5, from 0"));
 }
 
+TEST(CommandLine, GoingOnNeedsTheMapOfACapture) {
+  const Recording recording;
+  const std::string capture = small_capture(recording);
+  const std::string track =
+      "track " + recording.folder().string() + " --out " + capture + ".tum --resume ";
+  EXPECT_COMPLAINT(lumibox(track + "/nowhere"), HasSubstr("/nowhere: is not a folder"));
+  EXPECT_COMPLAINT(lumibox(track + capture), HasSubstr(capture + "/map/map.json"));
+  recording.dir().write("capture/map/map.json", "{\"version\": 9}");
+  EXPECT_COMPLAINT(lumibox(track + capture + " --capture " + capture),
+                   HasSubstr("map.json: version is 9, expected"));
+  EXPECT_EQ(lumibox("evaluate " + capture).status, 0) << "it can be looked at all the same";
+}
+
 TEST(CommandLine, ViewsWithoutPosesAreRefused) {
   const Recording recording;
   const std::string capture = small_capture(recording);

@@ -5,8 +5,10 @@
 #include <rapidcheck/gtest.h>
 
 #include <numbers>
+#include <optional>
 
 #include "app/moments.h"
+#include "lightfield/capture.h"
 #include "support/temp_dir.h"
 
 namespace lumibox::app {
@@ -326,6 +328,85 @@ RC_GTEST_PROP(Modes, SurviveAnyButtons, ()) {
     RC_ASSERT(has_subject || mode == ModeId::Acquire || mode == ModeId::Subject);
     RC_ASSERT(!box.recorder.error());
   }
+}
+
+/// A box that was switched on with a capture on disk; its map fits, or there is a problem with it.
+struct WaitingBox : Box {
+  explicit WaitingBox(const std::string& problem = "") {
+    {
+      Recorder before(testing::small_camera(), config.capture, lightfield::Writing::Inline);
+      const Moment moment = world.see_from(around_subject(0.0));
+      before.begin({Eigen::Vector3d::UnitZ(), 0.3}, moment, dir / "capture-0001");
+      before.record(moment);
+      before.finish(world.map());
+    }
+    const MapNow map = world.map();
+    recorder.resume(lightfield::load_capture(dir / "capture-0001"),
+                    problem.empty() ? &map : nullptr);
+    session.waiting = WaitingCapture{"capture-0001", problem};
+    switched_on.emplace(session, testing::small_camera());
+  }
+  Decision tick(const std::vector<Gesture>& gestures, const Moment& moment) {
+    const Decision decision = switched_on->decide(gestures, moment);
+    picture = switched_on->draw(moment);
+    return decision;
+  }
+  Decision tick_lost(const std::vector<Gesture>& gestures = {}) {
+    return tick(gestures, world.see_nothing(tracking::TrackingReason::Relocalising));
+  }
+  ModeId mode() const { return switched_on->current(); }
+
+  std::optional<Modes> switched_on;
+};
+
+TEST(Resume, WaitsForAKnownPlaceAndGoesOnByItself) {
+  WaitingBox box;
+  box.tick_lost({kMain, kPlus, kWipe});
+  EXPECT_EQ(box.mode(), ModeId::Resume);
+  EXPECT_THAT(box.picture.title, HasSubstr("capture-0001  1 views"));
+  EXPECT_THAT(box.picture.advice, HasSubstr("point at its subject"));
+  const Decision decision = box.tick({}, box.world.see_from(around_subject(0.5)));
+  EXPECT_EQ(box.mode(), ModeId::Capture);
+  EXPECT_TRUE(decision.record);
+  EXPECT_TRUE(decision.hold_exposure);
+  EXPECT_FALSE(decision.start_over);
+}
+
+TEST(Resume, ANewOneBeginsOnlyWhenAskedFor) {
+  WaitingBox box;
+  EXPECT_FALSE(box.tick_lost({kMain}).start_over);
+  EXPECT_TRUE(box.tick_lost({kMainLong}).start_over);
+  EXPECT_EQ(box.mode(), ModeId::Acquire);
+  EXPECT_FALSE(box.tick_lost().start_over) << "once";
+}
+
+TEST(Resume, ReviewShowsItAndComesBackToWaiting) {
+  WaitingBox box;
+  box.tick_lost({kReview});
+  EXPECT_EQ(box.mode(), ModeId::Review);
+  EXPECT_TRUE(box.picture.light_field) << "in an orbit: the box does not know where it is";
+  box.tick_lost({kReview});
+  EXPECT_EQ(box.mode(), ModeId::Resume);
+  box.tick_lost({kReview});
+  box.tick({kReview}, box.world.see_from(around_subject(0.5)));
+  EXPECT_EQ(box.mode(), ModeId::Capture);
+}
+
+// Without its map there is no telling where the capture is: the tracker's world is another one.
+TEST(Resume, WithAProblemItIsSaidAndShownAndNothingIsRecorded) {
+  WaitingBox box("map/map.json: is damaged");
+  const Moment good = box.world.see_from(around_subject(0.5));
+  EXPECT_FALSE(box.tick({}, good).record);
+  EXPECT_EQ(box.mode(), ModeId::Resume);
+  ASSERT_EQ(box.picture.alerts.size(), 1U);
+  EXPECT_THAT(box.picture.alerts[0], HasSubstr("map/map.json: is damaged"));
+  box.tick({kReview}, good);
+  ASSERT_TRUE(box.picture.world_from_view);
+  EXPECT_FALSE(box.picture.world_from_view->translation.isApprox(
+      good.tracked.world_from_camera->translation, 1e-3))
+      << "the view is not the box's, which is in another world";
+  EXPECT_FALSE(box.tick({kReview}, good).record);
+  EXPECT_EQ(box.mode(), ModeId::Resume);
 }
 
 }  // namespace

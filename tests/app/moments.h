@@ -32,7 +32,23 @@ class World {
             },
             [] {
               return std::vector<Eigen::Vector3d>{{1.0, 2.0, 3.0}};
-            }};
+            },
+            [this] { return copy(); }};
+  }
+
+  /// What a tracker would keep: keyframes from 0 on, those that no test put elsewhere at the
+  /// origin.
+  std::shared_ptr<const tracking::MapView> copy() const {
+    auto map = std::make_shared<tracking::MapView>();
+    for (tracking::KeyframeId id = 0; id <= keyframes_.rbegin()->first; ++id) {
+      const auto it = keyframes_.find(id);
+      tracking::MapView::Keyframe keyframe;
+      keyframe.world_from_camera = it == keyframes_.end() ? geometry::Pose{} : it->second;
+      keyframe.camera_from_world = keyframe.world_from_camera.inverse();
+      keyframe.pyramid = std::make_shared<tracking::Pyramid>(hal::Image(64, 48, 1), 2);
+      map->keyframes.push_back(keyframe);
+    }
+    return map;
   }
 
   /// Well tracked, hanging on keyframe 0, with a wall of points one unit ahead.

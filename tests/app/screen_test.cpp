@@ -29,5 +29,14 @@ TEST(FittedCamera, ShowsTheWholePictureInTheMiddle) {
   EXPECT_NEAR(corner_of(639.5, 0.0).x(), 659.5, 1e-9);
 }
 
+TEST(Wrapped, BreaksBetweenWordsAndWithinThoseThatAreTooLong) {
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(wrapped("", 5), Lines{""});
+  EXPECT_EQ(wrapped("short", 5), Lines{"short"});
+  EXPECT_EQ(wrapped("not stored: full", 11), (Lines{"not stored:", "full"}));
+  EXPECT_EQ(wrapped("not stored: full", 12), (Lines{"not stored:", "full"}));
+  EXPECT_EQ(wrapped("in /a/path/that/is/long", 8), (Lines{"in", "/a/path/", "that/is/", "long"}));
+}
+
 }  // namespace
 }  // namespace lumibox::app

@@ -9,7 +9,8 @@
 #include <random>
 #include <set>
 
-#include "lightfield/fixtures.h"
+#include "lightfield/map_files.h"
+#include "lightfield/map_fixtures.h"
 #include "lightfield/store.h"
 
 namespace lumibox::lightfield {
@@ -25,18 +26,26 @@ Perspective taken(int i) {
   return make_perspective(i, kSphere.center, small_camera());
 }
 
-/// A short capture with a wipe, an undo and points.
+/// A short capture with a wipe, an undo, points and a map that grows.
 void act_out(Store& store) {
   store.set_subject(kSphere);
   store.add(taken(0));
   store.add(taken(1));
   store.remove(0);
   store.set_points({{1.0, 2.0, 3.0}});
+  store.set_map(std::make_shared<tracking::MapView>(make_map(2)), small_camera());
   store.restore(taken(0));
   store.set_points({{4.0, 5.0, 6.0}, {7.0, 8.0, 9.0}});
   store.set_pose(1, orbit_pose(5, kSphere.center));
   store.add(taken(2));
+  store.set_map(std::make_shared<tracking::MapView>(make_map(4, /*seed=*/3)), small_camera());
   store.remove(1);
+}
+
+/// A map of before the last operation or after it, none before the first; nothing between.
+void expect_whole_map(const fs::path& capture) {
+  if (!fs::exists(capture / kMapFile)) return;
+  EXPECT_EQ(input_error([&] { read_map(capture, *small_camera(), 2); }), "");
 }
 
 TEST(StoreCrash, FolderLoadsAfterEverySingleOperation) {
@@ -48,6 +57,7 @@ TEST(StoreCrash, FolderLoadsAfterEverySingleOperation) {
     begun = begun || fs::exists(capture / "transforms.json");
     if (!begun) return;
     EXPECT_EQ(input_error([&] { load_capture(capture); }), "");
+    expect_whole_map(capture);
     ++loads;
   };
   {
@@ -56,6 +66,7 @@ TEST(StoreCrash, FolderLoadsAfterEverySingleOperation) {
   }
   EXPECT_GT(loads, 60);
   EXPECT_EQ(load_capture(capture).light_field.perspectives().size(), 2U);
+  EXPECT_EQ(read_map(capture, *small_camera(), 2).keyframes.size(), 4U);
 }
 
 /// A power cut may lose whatever was not synced, so the order of syncs counts, not what a look
@@ -86,6 +97,30 @@ TEST(StoreCrash, NothingIsNamedBeforeItIsSynced) {
   EXPECT_TRUE(unsynced_names.empty());
 }
 
+/// Perspectives that are gone on with may hang on keyframes that went with the power. Before a map
+/// comes that has others of their numbers, what they hang on now is on disk.
+TEST(StoreCrash, GoingOnNamesWhatPerspectivesHangOnBeforeTheMapHasItsNextKeyframes) {
+  const TemporaryFolder folder;
+  {
+    Store store(folder / "c", 90, Writing::Inline);
+    act_out(store);
+  }
+  Capture capture = load_capture(folder / "c");
+  std::vector<Perspective> perspectives = capture.light_field.perspectives();
+  perspectives[0].keyframe = 1;
+  capture.light_field = LightField(perspectives, capture.light_field.subject());
+  std::vector<std::string> written;
+  const auto note = [&](Step step, const fs::path& path) {
+    if (step == Step::Renamed) written.push_back(path.filename());
+  };
+  Store store(capture, 4, 90, Writing::Inline, DurableFiles(note));
+  EXPECT_TRUE(written.empty()) << "a capture that is looked at stays as it is";
+  store.set_map(std::make_shared<tracking::MapView>(make_map(5, /*seed=*/3)), small_camera());
+  const std::vector<std::string> expected = {"transforms.json", "000004.png", "map.json"};
+  EXPECT_EQ(written, expected);
+  EXPECT_EQ(load_capture(folder / "c").light_field.perspectives()[0].keyframe, 1);
+}
+
 /// Runs the capture in a process that is killed after `steps` operations; true if it was.
 bool run_and_kill(const fs::path& folder, int steps) {
   const pid_t child = ::fork();
@@ -110,10 +145,11 @@ TEST(StoreCrash, SurvivesKillMinusNineAtRandomMoments) {
   EXPECT_EQ(load_capture(folder / "whole").light_field.perspectives().size(), 2U);
   std::mt19937 random(1);
   for (int i = 0; i < 12; ++i) {
-    const int steps = 8 + static_cast<int>(random() % 50U);
+    const int steps = 8 + static_cast<int>(random() % 80U);
     const fs::path capture = folder / std::to_string(i);
     ASSERT_TRUE(run_and_kill(capture, steps)) << steps;
     EXPECT_EQ(input_error([&] { load_capture(capture); }), "") << steps;
+    expect_whole_map(capture);
   }
 }
 

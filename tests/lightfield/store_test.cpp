@@ -231,5 +231,36 @@ TEST(Store, PoseThatIsNotFiniteNeverReachesTheDisk) {
   EXPECT_EQ(load_capture(folder / "c").light_field.perspectives().size(), 1U);
 }
 
+TEST(Store, WhatPerspectivesHangOnIsWrittenAsMovesAre) {
+  const TemporaryFolder folder;
+  const geometry::Pose there(geometry::exp_so3({0.1, 0.2, 0.3}), {4.0, 5.0, 6.0});
+  Store store(folder / "c", 90, Writing::Inline);
+  store.add(make_perspective(0, kSphere.center, small_camera()));
+  store.hang(0, 7, there);
+  store.hang(1, 8, there);  // there is none: nothing happens
+  EXPECT_EQ(load_capture(folder / "c").light_field.perspectives()[0].keyframe, 0);
+  store.flush();
+  const auto perspective = load_capture(folder / "c").light_field.perspectives()[0];
+  EXPECT_EQ(perspective.keyframe, 7);
+  EXPECT_EQ(perspective.keyframe_from_camera.translation, there.translation);
+}
+
+TEST(Store, SphereAndThresholdComeBackAsTheyWere) {
+  const TemporaryFolder folder;
+  Sphere sphere = kSphere;
+  sphere.keyframe = 3;
+  sphere.center_in_keyframe = {0.1, 0.2, 1.0 / 3.0};
+  {
+    Store store(folder / "c", 90, Writing::Threaded);
+    store.set_subject(sphere);
+    store.set_threshold(0.07);
+    store.add(make_perspective(0, kSphere.center, small_camera()));
+  }
+  const Capture capture = load_capture(folder / "c");
+  EXPECT_EQ(capture.light_field.subject()->keyframe, 3);
+  EXPECT_EQ(capture.light_field.subject()->center_in_keyframe, sphere.center_in_keyframe);
+  EXPECT_NEAR(capture.threshold.value(), 0.07, 1e-15);
+}
+
 }  // namespace
 }  // namespace lumibox::lightfield

@@ -15,6 +15,8 @@
 
 #include "app/button_script.h"
 #include "app/loop.h"
+#include "app/saved_capture.h"
+#include "bench/trajectory.h"
 #include "config/error.h"
 #include "hal/offscreen/offscreen_display.h"
 #include "hal/scripted/scripted_buttons.h"
@@ -67,12 +69,12 @@ class FailingCamera : public hal::Camera {
 class BoxRun {
  public:
   BoxRun(const std::vector<TimedPress>& presses, const std::filesystem::path& captures,
-         double camera_fails_at_s = 1e9) {
+         double camera_fails_at_s = 1e9, const std::filesystem::path& scene = kScene) {
     config_.loop.rate_hz = 15.0;
     config_.capture.threshold_deg = 3.0;
     devices_.clock = std::make_unique<hal::VirtualClock>();
     devices_.camera = std::make_unique<FailingCamera>(
-        std::make_unique<hal::SimCamera>(hal::load_scene(kScene), *devices_.clock), *devices_.clock,
+        std::make_unique<hal::SimCamera>(hal::load_scene(scene), *devices_.clock), *devices_.clock,
         camera_fails_at_s);
     std::vector<hal::ButtonEvent> events;
     for (const TimedPress& press : presses) {
@@ -87,7 +89,10 @@ class BoxRun {
     devices_.display = std::move(display);
     devices_.display->make_current();
     devices_.camera->start();
-    loop_ = std::make_unique<Loop>(devices_, config_, captures, kLockstep);
+    const geometry::Camera camera(devices_.camera->profile());
+    loop_ = std::make_unique<Loop>(
+        devices_, config_, captures, kLockstep,
+        find_saved_capture(captures, camera, config_.tracking.pyramid_levels));
   }
 
   void until(double time_s) {
@@ -174,6 +179,92 @@ TEST(Box, WhatIsRecordedBeforeTheCameraFailsIsFinished) {
   const auto capture = lightfield::load_capture(dir / "capture-0001");
   EXPECT_EQ(capture.light_field.perspectives().size(), run.views());
   EXPECT_FALSE(capture.points.empty());
+}
+
+/// RMSE of the perspectives' centres after one alignment of all, as a share of the walk's extent.
+double error_percent(const lightfield::LightField& light_field, const hal::Scene& scene) {
+  std::vector<hal::StampedPose> estimate;
+  std::vector<hal::StampedPose> truth;
+  for (const auto& p : light_field.perspectives()) {
+    const double time_s = 1e-9 * static_cast<double>(p.timestamp_ns);
+    estimate.push_back({time_s, p.world_from_camera});
+    truth.push_back({time_s, scene.world_from_camera(time_s)});
+  }
+  return bench::compare_trajectories(estimate, truth).value().rmse_percent;
+}
+
+/// What is on disk when the power goes, two thirds through the walk.
+void walk_until_the_power_goes(const std::filesystem::path& left) {
+  const TempDir dir;
+  BoxRun run(kCapture, dir.path());
+  run.until(5.0);
+  EXPECT_GE(run.views(), 4U);
+  std::filesystem::copy(dir.path(), left, std::filesystem::copy_options::recursive);
+}
+
+TEST(Box, GoesOnInTheSameWorldAfterThePowerWasGone) {
+  const TempDir dir;
+  walk_until_the_power_goes(dir.path());
+  const auto before = lightfield::load_capture(dir / "capture-0001").light_field;
+  BoxRun run({}, dir.path());
+  EXPECT_EQ(run.views(), before.perspectives().size());
+  run.until(0.05);
+  EXPECT_EQ(run.loop().mode(), ModeId::Capture) << "the walk begins where the map does";
+  run.until(6.4);
+  EXPECT_EQ(run.loop().mode(), ModeId::Capture);
+  EXPECT_GT(run.views(), before.perspectives().size());
+  run.loop().finish();
+
+  EXPECT_FALSE(std::filesystem::exists(dir / "capture-0002"));
+  const auto both = lightfield::load_capture(dir / "capture-0001").light_field;
+  EXPECT_EQ(both.perspectives().size(), run.views());
+  // 0.5 %: a walk of seconds in a picture of 160 pixels; of two worlds with scales of their own the
+  // error would be tens of percent.
+  const auto scene = hal::load_scene(kScene);
+  EXPECT_LT(error_percent(both, *scene), 0.5);
+  const auto& sphere = *before.subject();
+  EXPECT_LT((both.subject()->center - sphere.center).norm(), 0.05 * sphere.radius);
+}
+
+/// The same room with other pictures on everything.
+std::string repainted(std::string scene) {
+  for (const auto& [found, other] :
+       {std::pair("seed = 31", "seed = 32"), {"seed = 3\n", "seed = 4\n"}}) {
+    scene.replace(scene.find(found), std::string_view(found).size(), other);
+  }
+  return scene;
+}
+
+TEST(Box, NeverBeginsANewWorldByItselfWhereItDoesNotKnowThePlace) {
+  const TempDir dir;
+  walk_until_the_power_goes(dir.path());
+  const auto before = contents(dir.path());
+  const std::vector<TimedPress> presses = {{1.0, {Button::Main, Press::Short}},
+                                           {2.0, {Button::Main, Press::Short}},
+                                           {3.0, {Button::Main, Press::Long}}};
+  const TempDir elsewhere;
+  BoxRun run(presses, dir.path(), 1e9,
+             elsewhere.write("scene.toml", repainted(testing::read_text(kScene))));
+  run.until(2.9);
+  EXPECT_EQ(run.loop().mode(), ModeId::Resume);
+  EXPECT_EQ(run.loop().moment().tracked.reason, tracking::TrackingReason::Relocalising);
+  EXPECT_TRUE(contents(dir.path()) == before);
+  run.until(6.0);
+  EXPECT_EQ(run.loop().mode(), ModeId::Subject) << "asked for, a new world begins";
+}
+
+TEST(Box, CaptureWithADamagedMapIsStillShown) {
+  const TempDir dir;
+  walk_until_the_power_goes(dir.path());
+  dir.write("capture-0001/map/map.json", "{\"version\": 1");
+  BoxRun run({{1.0, {Button::Review, Press::Short}}}, dir.path());
+  run.until(0.9);
+  EXPECT_EQ(run.loop().mode(), ModeId::Resume);
+  ASSERT_EQ(run.loop().picture().alerts.size(), 1U);
+  EXPECT_NE(run.loop().picture().alerts[0].find("map/map.json"), std::string::npos);
+  run.until(1.2);
+  EXPECT_EQ(run.loop().mode(), ModeId::Review);
+  EXPECT_GT(mean_brightness(run.screen()), 20.0) << "grey levels: a picture, not a black screen";
 }
 
 /// A file system with little room, while the object lives.

@@ -7,6 +7,7 @@
 
 #include "geometry/rotation.h"
 #include "support/pinhole.h"
+#include "tracking/map_view.h"
 #include "tracking/textured_world.h"
 
 namespace lumibox::tracking {
@@ -177,6 +178,68 @@ TEST(Tracker, TurningAwayAndBackKeepsThePose) {
   EXPECT_TRUE(held) << "the map must be out of sight, or this tests nothing";
   EXPECT_EQ(frames.back().state, TrackingState::Good);
   EXPECT_EQ(tracker.statistics().relocalisations, 0);
+}
+
+/// The map after the first 16 frames of the walk.
+std::shared_ptr<const MapView> map_of_first_half() {
+  Tracker tracker(testing::small_camera(), options(), Mapping::Lockstep, 1);
+  run(tracker, {walk().begin(), walk().begin() + 16});
+  return tracker.map();
+}
+
+TEST(ResumedTracker, GoesOnAsIfNothingHadHappened) {
+  Tracker uninterrupted(testing::small_camera(), options(), Mapping::Lockstep, 1);
+  const auto expected = run(uninterrupted, walk());
+  const auto saved = map_of_first_half();
+  Tracker resumed(testing::small_camera(), options(), Mapping::Lockstep, 2, saved);
+  for (std::size_t i = 13; i < walk().size(); ++i) {
+    const auto frame = resumed.track(walk()[i], static_cast<std::int64_t>(i - 13), kPeriod);
+    ASSERT_EQ(frame.state, TrackingState::Good) << i;
+    // In the same world. 0.005 of the scene's depth: as after a loss, for the frames are found in a
+    // map that grew with other keyframes.
+    EXPECT_LT(
+        (frame.world_from_camera->translation - expected[i].world_from_camera->translation).norm(),
+        0.005)
+        << i;
+    EXPECT_LT(
+        frame.world_from_camera->rotation.angularDistance(expected[i].world_from_camera->rotation),
+        0.003)
+        << i;
+  }
+  EXPECT_EQ(resumed.statistics().relocalisations, 1);
+  ASSERT_GE(resumed.map()->keyframes.size(), saved->keyframes.size());
+  for (std::size_t i = 0; i < saved->keyframes.size(); ++i) {
+    EXPECT_EQ(resumed.map()->keyframes[i].pyramid, saved->keyframes[i].pyramid)
+        << "keyframes keep their ids";
+  }
+}
+
+// A walk along a part of the wall that the map has never seen: with enough parallax for a first
+// map, if there were none.
+TEST(ResumedTracker, StaysLostInAnotherPlaceUntilItIsToldToStartOver) {
+  std::vector<hal::Image> elsewhere;
+  for (int i = 0; i < 16; ++i) {
+    geometry::Pose pose = walk_pose(i, 0.02);
+    pose.translation.y() += 2.2;  // the map's pictures end 0.9 below the middle, these begin there
+    elsewhere.push_back(testing::render_wedge(testing::small_camera(), pose));
+  }
+  for (const Mapping mapping : {Mapping::Lockstep, Mapping::Threaded}) {
+    const auto saved = map_of_first_half();
+    Tracker tracker(testing::small_camera(), options(), mapping, 2, saved);
+    for (const TrackedFrame& frame : run(tracker, elsewhere)) {
+      EXPECT_EQ(frame.state, TrackingState::Lost);
+      EXPECT_EQ(frame.reason, TrackingReason::Relocalising);
+      EXPECT_FALSE(frame.world_from_camera);
+    }
+    EXPECT_EQ(tracker.statistics().relocalisations, 0);
+    EXPECT_EQ(tracker.map()->keyframes.size(), saved->keyframes.size());
+    EXPECT_EQ(tracker.map()->points.size(), saved->points.size());
+    tracker.start_over();
+    EXPECT_EQ(tracker.map(), nullptr);
+    const auto frames = run(tracker, elsewhere);
+    EXPECT_EQ(frames.front().state, TrackingState::Initialising);
+    EXPECT_EQ(frames.back().state, TrackingState::Good) << "or the pictures show nothing";
+  }
 }
 
 TEST(Tracker, EveryReasonHasItsAdvice) {
