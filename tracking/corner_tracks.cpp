@@ -103,7 +103,8 @@ CornerTracks::CornerTracks(std::shared_ptr<const FlowPicture> reference, std::in
                            int fast_threshold)
     : reference_(reference->shared_pyramid()),
       last_(std::move(reference)),
-      times_ns_{timestamp_ns} {
+      times_ns_{timestamp_ns},
+      still_until_ns_(timestamp_ns) {
   constexpr int kCandidates = 1200;  // as many as cover the picture
   for (const Corner& corner :
        spread(detect_corners(*reference_, fast_threshold, kCandidates), *reference_)) {
@@ -135,7 +136,8 @@ void CornerTracks::follow(std::shared_ptr<const FlowPicture> picture, std::int64
   forget_views();
 }
 
-/// A camera that stays where it is adds no view, and of many views every other one will do.
+/// A camera that stays where it is adds no view, and of many views every other one will do. The
+/// views beside the ends are kept: they tell how the camera moved there.
 void CornerTracks::forget_views() {
   const auto erase = [this](std::size_t view) {
     const auto at = static_cast<std::ptrdiff_t>(view);
@@ -143,9 +145,10 @@ void CornerTracks::forget_views() {
     for (Track& track : tracks_) track.path.erase(track.path.begin() + at);
   };
   if (median_flow_px() < kStill * last_->pyramid().level(0).width()) {
-    while (times_ns_.size() > 2) erase(times_ns_.size() - 2);
+    still_until_ns_ = times_ns_.back();
+    while (times_ns_.size() > 4) erase(times_ns_.size() - 3);
   } else if (times_ns_.size() > kMaxViews) {
-    for (std::size_t view = kMaxViews - 2; view > 0 && view < kMaxViews; view -= 2) erase(view);
+    for (std::size_t view = kMaxViews - 3; view > 1 && view < kMaxViews; view -= 2) erase(view);
   }
 }
 

@@ -51,8 +51,9 @@ class CornerTracks {
   /// Of the views that the paths tell of.
   const std::vector<std::int64_t>& times_ns() const { return times_ns_; }
   int frames() const { return frames_; }  ///< followed into, whether kept or not
-  double share() const;                   ///< of the corners at the start that are still followed
-  double median_flow_px() const;          ///< since the reference
+  std::int64_t still_until_ns() const { return still_until_ns_; }  ///< at the reference's place
+  double share() const;           ///< of the corners at the start that are still followed
+  double median_flow_px() const;  ///< since the reference
 
  private:
   void forget_views();
@@ -61,6 +62,7 @@ class CornerTracks {
   std::shared_ptr<const FlowPicture> last_;
   std::vector<Track> tracks_;
   std::vector<std::int64_t> times_ns_;
+  std::int64_t still_until_ns_ = 0;
   std::size_t count_at_start_ = 0;
   int frames_ = 0;
 };

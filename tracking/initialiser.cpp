@@ -45,17 +45,23 @@ TrackingReason why_without_corners(const Pyramid& picture) {
                                              : TrackingReason::TooLittleTexture;
 }
 
-/// Views of the paths, evenly in time, first and last included; the one nearest to `timestamp_ns`
-/// too.
-std::vector<std::size_t> choose_views(const std::vector<std::int64_t>& times_ns,
+/// The first view, and of those after the camera stood still evenly in time up to the last; the one
+/// nearest to `timestamp_ns` too.
+std::vector<std::size_t> choose_views(const CornerTracks& tracks,
                                       std::optional<std::int64_t> timestamp_ns) {
-  std::vector<std::size_t> views;
-  const std::size_t count = std::min(kViews, times_ns.size());
-  for (std::size_t v = 0; v < count; ++v) views.push_back(v * (times_ns.size() - 1) / (count - 1));
-  if (timestamp_ns && count > 2) {
-    const auto at = std::ranges::lower_bound(times_ns, *timestamp_ns);
-    const auto wanted = std::clamp<std::size_t>(static_cast<std::size_t>(at - times_ns.begin()), 1,
-                                                times_ns.size() - 2);
+  const std::vector<std::int64_t>& times_ns = tracks.times_ns();
+  const auto index_of = [&](auto found) {
+    return std::min(static_cast<std::size_t>(found - times_ns.begin()), times_ns.size() - 1);
+  };
+  const std::size_t moving = index_of(std::ranges::upper_bound(times_ns, tracks.still_until_ns()));
+  const std::size_t span = times_ns.size() - 1 - moving;
+  const std::size_t count = std::min(kViews - 1, span + 1);
+  std::vector<std::size_t> views{0};
+  for (std::size_t v = 1; v < count; ++v) views.push_back(moving + (v - 1) * span / (count - 1));
+  views.push_back(times_ns.size() - 1);
+  if (timestamp_ns && views.size() > 2) {
+    const std::size_t wanted = std::clamp<std::size_t>(
+        index_of(std::ranges::lower_bound(times_ns, *timestamp_ns)), 1, times_ns.size() - 2);
     auto nearest = std::ranges::min_element(
         views.begin() + 1, views.end() - 1, {},
         [&](std::size_t v) { return v > wanted ? v - wanted : wanted - v; });
@@ -124,20 +130,11 @@ bool Initialiser::is_due() {
   return true;
 }
 
-/// Of a rolling shutter: what the rows' own motion does to a depth is at most the share that the
-/// readout is of the time under way.
-bool Initialiser::outlasts_readout() const {
-  const std::vector<std::int64_t>& times_ns = tracks_->times_ns();
-  const std::int64_t under_way_ns = times_ns.back() - times_ns[1];
-  return camera_.profile().readout_s <=
-         1e-9 * options_.init_max_depth_sigma * static_cast<double>(under_way_ns);
-}
-
 std::optional<InitialMap> Initialiser::attempt(const std::shared_ptr<const Pyramid>& frame) {
   const std::vector<std::int64_t>& times_ns = tracks_->times_ns();
   const std::optional<std::int64_t> claimed =
       claim_ ? std::optional(claim_->timestamp_ns) : std::nullopt;
-  const std::vector<std::size_t> views = choose_views(times_ns, claimed);
+  const std::vector<std::size_t> views = choose_views(*tracks_, claimed);
   Bearings bearings(views.size());
   for (std::size_t v = 0; v < views.size(); ++v) {
     for (const CornerTracks::Track& track : tracks_->tracks()) {
@@ -156,7 +153,6 @@ std::optional<InitialMap> Initialiser::attempt(const std::shared_ptr<const Pyram
     return std::nullopt;
   }
   reason_ = TrackingReason::MoveSideways;
-  if (!outlasts_readout()) return std::nullopt;
   bool confirmed = false;
   if (claim_) {
     for (std::size_t v = 1; v < views.size(); ++v) {

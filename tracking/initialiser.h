@@ -61,7 +61,6 @@ class Initialiser {
              bool torn);
   static bool holds(const std::unique_ptr<CornerTracks>& tracks);
   bool is_due();
-  bool outlasts_readout() const;
   std::optional<InitialMap> attempt(const std::shared_ptr<const Pyramid>& frame);
   std::optional<InitialMap> make_map(const std::shared_ptr<const Pyramid>& frame,
                                      const FirstStructure& structure) const;
