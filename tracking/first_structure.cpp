@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kIterations = 8;        // per round of the adjustment
 constexpr double kSame = 0.1;         // radians between directions of motion that are one solution
-constexpr double kClear = 3.0;        // standard deviations by which the best must beat the next
+constexpr double kClear = 4.0;        // standard deviations by which the best must beat the next
 constexpr double kAgree = 0.2;        // radians between the directions of one motion found twice
 constexpr double kOutlierSigmas = 4;  // of a point's error over all views
 constexpr double kMaxBehind =
