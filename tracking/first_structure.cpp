@@ -19,13 +19,12 @@
 namespace lumibox::tracking {
 namespace {
 
-constexpr int kIterations = 8;        // per round of the adjustment
-constexpr double kSame = 0.1;         // radians between directions of motion that are one solution
-constexpr double kClear = 4.0;        // standard deviations by which the best must beat the next
-constexpr double kAgree = 0.2;        // radians between the directions of one motion found twice
-constexpr double kOutlierSigmas = 4;  // of a point's error over all views
-constexpr double kMaxBehind =
-    0.05;  // share of the points beyond infinity by clearly more than noise
+constexpr int kIterations = 8;         // per round of the adjustment
+constexpr double kSame = 0.1;          // radians between directions of motion that are one solution
+constexpr double kClear = 4.0;         // standard deviations by which the best must beat the next
+constexpr double kAgree = 0.2;         // radians between the directions of one motion found twice
+constexpr double kOutlierSigmas = 4;   // of a point's error over all views
+constexpr double kMaxBehind = 0.05;    // share of the points that may lie beyond infinity
 constexpr double kMinDepthSigmas = 3;  // points surer than that have a depth
 
 geometry::MultiView start_of(const geometry::Pose& last_from_first, const Bearings& bearings,
