@@ -18,7 +18,7 @@ struct Tracking {
   int max_measurements = 700;            ///< map points searched for per frame
   int max_features_per_keyframe = 1200;  ///< corners kept on all levels of a keyframe
   int fast_threshold = 10;               ///< grey levels
-  double init_min_parallax_deg = 1.0;    ///< median parallax for a two-view map
+  double init_max_depth_sigma = 0.03;    ///< relative error of a typical depth in the first map
   int init_min_inliers = 80;             ///< points in a two-view map
   double search_radius_px = 4.0;         ///< of the level searched, after the coarse pass
   double lost_inlier_share = 0.25;  ///< share of searched points found below which quality is bad

@@ -1,224 +1,195 @@
 #include "tracking/initialiser.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
-#include <opencv2/video/tracking.hpp>
+#include <cstddef>
+#include <utility>
 
 #include "geometry/robust.h"
-#include "geometry/triangulation.h"
-#include "geometry/two_view.h"
-#include "tracking/corners.h"
-#include "tracking/opencv_view.h"
-#include "tracking/patch.h"
+#include "tracking/corner_tracks.h"
+#include "tracking/first_structure.h"
 #include "tracking/rolling_start.h"
-#include "tracking/third_view.h"
 
 namespace lumibox::tracking {
 namespace {
 
 constexpr std::size_t kMinCorners = 100;  // fewer do not cover a picture
-constexpr double kMinTrackShare = 0.4;    // of the first frame's corners; below, start again
+constexpr double kMinTrackShare = 0.4;    // of the reference's corners; below, they are given up
+constexpr double kLaterShare = 0.7;       // below, a later reference is followed as well
 constexpr double kMinFlowShare = 0.008;   // of the picture's width: less is a still camera
-constexpr double kNoisePx = 0.7;          // of a followed corner, standard deviation
+constexpr double kNoisePx = 0.7;          // of a followed corner, generous: tells outliers
+constexpr double kGrowth = 0.1;           // of the flow, that makes another attempt worth its time
+constexpr int kPatience = 5;              // frames after which another is made in any case
+constexpr std::size_t kViews = 7;         // adjusted together
+constexpr int kTornFrames = 2;            // corners that are gone by then were none
+constexpr double kDark = 32.0;            // grey levels; an eighth of what a bright spot has
+constexpr double kBlurredContrast = 2.0;  // grey levels from one coarse pixel to the next
+
+/// A picture without corners is dark, or blurred if what it shows is coarse, or shows nothing.
+TrackingReason why_without_corners(const Pyramid& picture) {
+  const hal::Image& coarse = picture.level(picture.levels() - 1);
+  std::vector<double> values;
+  double squares = 0.0;
+  for (int v = 1; v < coarse.height(); ++v) {
+    for (int u = 1; u < coarse.width(); ++u) {
+      const double here = *coarse.at(u, v);
+      values.push_back(here);
+      squares += 0.5 * (std::pow(here - *coarse.at(u - 1, v), 2) +
+                        std::pow(here - *coarse.at(u, v - 1), 2));
+    }
+  }
+  const double contrast =
+      std::sqrt(squares / static_cast<double>(std::max<std::size_t>(values.size(), 1)));
+  const bool dark = geometry::quantile(std::move(values), 0.95) < kDark;
+  return dark || contrast > kBlurredContrast ? TrackingReason::TooDarkOrBlurred
+                                             : TrackingReason::TooLittleTexture;
+}
+
+/// The first view, and of those after the camera stood still evenly in time up to the last; the one
+/// nearest to `timestamp_ns` too.
+std::vector<std::size_t> choose_views(const CornerTracks& tracks,
+                                      std::optional<std::int64_t> timestamp_ns) {
+  const std::vector<std::int64_t>& times_ns = tracks.times_ns();
+  const auto index_of = [&](auto found) {
+    return std::min(static_cast<std::size_t>(found - times_ns.begin()), times_ns.size() - 1);
+  };
+  const std::size_t moving = index_of(std::ranges::upper_bound(times_ns, tracks.still_until_ns()));
+  const std::size_t span = times_ns.size() - 1 - moving;
+  const std::size_t count = std::min(kViews - 1, span + 1);
+  std::vector<std::size_t> views{0};
+  for (std::size_t v = 1; v < count; ++v) views.push_back(moving + (v - 1) * span / (count - 1));
+  views.push_back(times_ns.size() - 1);
+  if (timestamp_ns && views.size() > 2) {
+    const std::size_t wanted = std::clamp<std::size_t>(
+        index_of(std::ranges::lower_bound(times_ns, *timestamp_ns)), 1, times_ns.size() - 2);
+    auto nearest = std::ranges::min_element(
+        views.begin() + 1, views.end() - 1, {},
+        [&](std::size_t v) { return v > wanted ? v - wanted : wanted - v; });
+    *nearest = wanted;
+  }
+  return views;
+}
 
 }  // namespace
-
-struct Initialiser::Track {
-  Eigen::Vector2d first;               // level 0
-  Eigen::Vector2d current;             // level 0
-  int level = 0;                       // its corner was found on
-  std::optional<PatchTemplate> patch;  // of the first frame, on that level
-  std::vector<Eigen::Vector2d> path;   // in every frame since the first, level 0
-};
 
 Initialiser::Initialiser(const geometry::Camera& camera, const config::Tracking& options,
                          std::uint32_t seed)
     : camera_(camera), options_(options), seed_(seed) {}
 Initialiser::~Initialiser() = default;
 
-void Initialiser::restart(const std::shared_ptr<const Pyramid>& frame, std::int64_t timestamp_ns) {
-  times_ns_ = {timestamp_ns};
-  first_ = frame;
-  last_ = frame;
-  tracks_.clear();
-  for (const Corner& corner :
-       detect_corners(*frame, options_.fast_threshold, options_.max_features_per_keyframe)) {
-    const Eigen::Vector2d pixel = from_level(corner.pixel, corner.level);
-    tracks_.push_back(
-        {pixel,
-         pixel,
-         corner.level,
-         make_template(frame->level(corner.level), corner.pixel, Eigen::Matrix2d::Identity()),
-         {}});
-  }
-  tracks_at_start_ = tracks_.size();
-}
-
-void Initialiser::follow(const std::shared_ptr<const Pyramid>& frame) {
-  std::vector<cv::Point2f> before;
-  for (const Track& t : tracks_) {
-    before.emplace_back(static_cast<float>(t.current.x()), static_cast<float>(t.current.y()));
-  }
-  std::vector<cv::Point2f> after;
-  std::vector<cv::Point2f> back;
-  std::vector<std::uint8_t> found;
-  std::vector<std::uint8_t> found_back;
-  std::vector<float> error;
-  const cv::Mat last = opencv_view(last_->level(0));
-  const cv::Mat current = opencv_view(frame->level(0));
-  const cv::Size window(15, 15);
-  cv::calcOpticalFlowPyrLK(last, current, before, after, found, error, window, 4);
-  cv::calcOpticalFlowPyrLK(current, last, after, back, found_back, error, window, 4);
-
-  std::vector<Track> kept;
-  for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    const cv::Point2f round_trip = back[i] - before[i];
-    if (found[i] == 0 || found_back[i] == 0 || round_trip.dot(round_trip) > 1.0F) continue;
-    Track t = std::move(tracks_[i]);
-    t.path.push_back(t.current);
-    t.current = Eigen::Vector2d(static_cast<double>(after[i].x), static_cast<double>(after[i].y));
-    refine(*frame, t);
-    if (camera_.contains(t.current, 4.0)) kept.push_back(std::move(t));
-  }
-  tracks_ = std::move(kept);
-  last_ = frame;
-}
-
-/// Sharpens a place found from frame to frame by comparison with the first frame: errors do not add
-/// up, and an exposure that changes does no harm.
-void Initialiser::refine(const Pyramid& frame, Track& track) {
-  constexpr double kFarthest = 1.0;  // pixels of the level: beyond, the two disagree
-  if (!track.patch) return;
-  const Eigen::Vector2d start = to_level(track.current, track.level);
-  const auto aligned = align_patch(frame.level(track.level), *track.patch, start);
-  if (aligned && (*aligned - start).norm() < kFarthest) {
-    track.current = from_level(*aligned, track.level);
-  }
-}
-
-double Initialiser::median_flow_px() const {
-  std::vector<double> flow;
-  for (const Track& t : tracks_) flow.push_back((t.current - t.first).norm());
-  return geometry::median(std::move(flow));
-}
-
 Initialiser::Progress Initialiser::add(const std::shared_ptr<const Pyramid>& frame,
                                        std::int64_t timestamp_ns) {
-  if (!first_) {
-    restart(frame, timestamp_ns);
-    return {std::nullopt, tracks_.size() < kMinCorners ? TrackingReason::TooLittleTexture
-                                                       : TrackingReason::MoveSideways};
-  }
-  times_ns_.push_back(timestamp_ns);
-  if (!tracks_.empty()) follow(frame);
-  const double share = static_cast<double>(tracks_.size()) /
-                       static_cast<double>(std::max<std::size_t>(tracks_at_start_, 1));
-  if (tracks_.size() < kMinCorners || share < kMinTrackShare) {
-    restart(frame, timestamp_ns);
-    return {std::nullopt, tracks_.size() < kMinCorners ? TrackingReason::TooLittleTexture
-                                                       : TrackingReason::MoveSideways};
-  }
-  if (median_flow_px() < kMinFlowShare * camera_.width()) {
-    return {std::nullopt, TrackingReason::MoveSideways};
-  }
-  return solve(frame);
-}
-
-Initialiser::Progress Initialiser::solve(const std::shared_ptr<const Pyramid>& frame) {
-  std::vector<geometry::BearingPair> pairs;
-  std::vector<const Track*> used;
-  for (const Track& t : tracks_) {
-    const auto first = camera_.unproject(t.first);
-    const auto second = camera_.unproject(t.current);
-    if (!first || !second) continue;
-    pairs.push_back({first->homogeneous().normalized(), second->homogeneous().normalized()});
-    used.push_back(&t);
-  }
-  geometry::TwoViewOptions options;
-  options.sigma_rad = kNoisePx / camera_.profile().fx;
-  options.min_inliers = options_.init_min_inliers;
-  options.min_parallax_rad = options_.init_min_parallax_deg * std::numbers::pi / 180.0;
-  options.seed = seed_;
-  const geometry::TwoViewResult motion = geometry::solve_two_view(pairs, options);
-  switch (motion.outcome) {
-    case geometry::TwoViewOutcome::Ok:
-      return make_map(frame, motion.second_from_first, motion.inliers, pairs, used);
-    case geometry::TwoViewOutcome::TooFewPoints:
-      return {std::nullopt, TrackingReason::TooLittleTexture};
-    case geometry::TwoViewOutcome::RotationOnly:
-      return {std::nullopt, TrackingReason::TurningOnly};
-    case geometry::TwoViewOutcome::PlaneAmbiguous:
-      if (const auto decided = decide(motion, pairs, used)) {
-        return make_map(frame, *decided, motion.inliers, pairs, used);
-      }
-      return {std::nullopt, TrackingReason::PlaneAmbiguous};
-    case geometry::TwoViewOutcome::NotEnoughInliers:
-    case geometry::TwoViewOutcome::NoMotion:
-    case geometry::TwoViewOutcome::LowParallax:
-      return {std::nullopt, TrackingReason::MoveSideways};
-  }
-  return {std::nullopt, TrackingReason::MoveSideways};
-}
-
-std::optional<geometry::Pose> Initialiser::decide(const geometry::TwoViewResult& motion,
-                                                  std::span<const geometry::BearingPair> pairs,
-                                                  std::span<const Track* const> used) const {
-  // Three views in between, evenly: the nearer to the middle, the more the shapes differ there.
-  constexpr std::size_t kBetween = 3;
-  ManyViews views;
-  views.between.resize(kBetween);
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    const auto& path = used[i]->path;
-    if (!motion.inliers[i] || path.size() < 2 * kBetween) continue;
-    std::array<Eigen::Vector3d, kBetween> bearings;
-    bool seen = true;
-    for (std::size_t v = 0; v < kBetween && seen; ++v) {
-      const auto ray = camera_.unproject(path[(v + 1) * path.size() / (kBetween + 1)]);
-      seen = ray.has_value();
-      if (seen) bearings[v] = ray->homogeneous().normalized();
+  const auto picture = std::make_shared<const FlowPicture>(frame);
+  if (tracks_) tracks_->follow(picture, timestamp_ns, camera_);
+  if (later_) later_->follow(picture, timestamp_ns, camera_);
+  if (!holds(tracks_)) {
+    const bool torn = tracks_ && tracks_->frames() <= kTornFrames;
+    tracks_ = std::move(later_);
+    claim_.reset();
+    flow_at_attempt_px_ = 0.0;
+    if (!holds(tracks_)) {
+      begin(picture, timestamp_ns, torn);
+      return {std::nullopt, reason_};
     }
-    if (!seen) continue;
-    views.first.push_back(pairs[i].first);
-    views.second.push_back(pairs[i].second);
-    for (std::size_t v = 0; v < kBetween; ++v) views.between[v].push_back(bearings[v]);
   }
-  const auto chosen =
-      decide_by_third_view(motion.candidates, views, 2.0 * kNoisePx / camera_.profile().fx);
-  if (!chosen) return std::nullopt;
-  return motion.candidates[*chosen];
+  if (!later_ && tracks_->share() < kLaterShare) {
+    later_ = std::make_unique<CornerTracks>(picture, timestamp_ns, options_.fast_threshold);
+  }
+  if (tracks_->median_flow_px() < kMinFlowShare * camera_.width()) {
+    reason_ = TrackingReason::MoveSideways;
+  } else if (is_due()) {
+    auto map = attempt(frame);
+    if (map) return {std::move(map), TrackingReason::None};
+  }
+  return {std::nullopt, reason_};
 }
 
-Initialiser::Progress Initialiser::make_map(const std::shared_ptr<const Pyramid>& frame,
-                                            const geometry::Pose& second_from_first,
-                                            const std::vector<bool>& inliers,
-                                            std::span<const geometry::BearingPair> pairs,
-                                            std::span<const Track* const> used) const {
+bool Initialiser::holds(const std::unique_ptr<CornerTracks>& tracks) {
+  return tracks && tracks->tracks().size() >= kMinCorners && tracks->share() >= kMinTrackShare;
+}
+
+/// Corners that are gone at once were blurred away, or were never more than noise in the dark.
+void Initialiser::begin(const std::shared_ptr<const FlowPicture>& picture,
+                        std::int64_t timestamp_ns, bool torn) {
+  tracks_ = std::make_unique<CornerTracks>(picture, timestamp_ns, options_.fast_threshold);
+  later_.reset();
+  if (tracks_->tracks().size() < kMinCorners) {
+    reason_ = why_without_corners(picture->pyramid());
+  } else {
+    reason_ = torn ? TrackingReason::TooDarkOrBlurred : TrackingReason::MoveSideways;
+  }
+}
+
+bool Initialiser::is_due() {
+  const double flow = tracks_->median_flow_px();
+  ++frames_since_attempt_;
+  const bool grown = std::abs(flow - flow_at_attempt_px_) > kGrowth * flow_at_attempt_px_;
+  if (!grown && frames_since_attempt_ < kPatience) return false;
+  flow_at_attempt_px_ = flow;
+  frames_since_attempt_ = 0;
+  return true;
+}
+
+std::optional<InitialMap> Initialiser::attempt(const std::shared_ptr<const Pyramid>& frame) {
+  const std::vector<std::int64_t>& times_ns = tracks_->times_ns();
+  const std::optional<std::int64_t> claimed =
+      claim_ ? std::optional(claim_->timestamp_ns) : std::nullopt;
+  const std::vector<std::size_t> views = choose_views(*tracks_, claimed);
+  Bearings bearings(views.size());
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    for (const CornerTracks::Track& track : tracks_->tracks()) {
+      bearings[v].push_back(camera_.unproject(track.path[views[v]])->homogeneous().normalized());
+    }
+  }
+  FirstStructureOptions options;
+  options.noise_rad = kNoisePx / camera_.profile().fx;
+  options.min_points = options_.init_min_inliers;
+  options.max_depth_sigma = options_.init_max_depth_sigma;
+  options.seed = seed_;
+  const FirstStructure structure = find_first_structure(bearings, options);
+  reason_ = structure.reason;
+  if (structure.reason != TrackingReason::None) {
+    claim_.reset();
+    return std::nullopt;
+  }
+  reason_ = TrackingReason::MoveSideways;
+  bool confirmed = false;
+  if (claim_) {
+    for (std::size_t v = 1; v < views.size(); ++v) {
+      if (times_ns[views[v]] >= claim_->timestamp_ns) {
+        confirmed = agrees(claim_->last_from_first, structure.view_from_first[v - 1]);
+        break;
+      }
+    }
+  }
+  claim_ = Claim{times_ns.back(), structure.view_from_first.back()};
+  if (!confirmed) return std::nullopt;
+  return make_map(frame, structure);
+}
+
+std::optional<InitialMap> Initialiser::make_map(const std::shared_ptr<const Pyramid>& frame,
+                                                const FirstStructure& structure) const {
   InitialMap map;
-  map.first = first_;
+  map.first = tracks_->reference();
   map.second = frame;
-  map.second_from_first = second_from_first;
+  map.second_from_first = structure.view_from_first.back();
   std::vector<PointPath> paths;
   std::vector<double> depths;
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    if (!inliers[i]) continue;
-    const auto point =
-        geometry::triangulate(geometry::Pose(), second_from_first, pairs[i].first, pairs[i].second);
-    if (!point) continue;
-    map.points.push_back({*point, used[i]->first, used[i]->current, used[i]->level});
-    paths.push_back(used[i]->path);
-    paths.back().push_back(used[i]->current);
-    depths.push_back(point->z());
-  }
-  if (map.points.size() < static_cast<std::size_t>(options_.init_min_inliers)) {
-    return {std::nullopt, TrackingReason::MoveSideways};
+  for (std::size_t i = 0; i < structure.points.size(); ++i) {
+    if (!structure.points[i]) continue;
+    const CornerTracks::Track& track = tracks_->tracks()[i];
+    map.points.push_back(
+        {*structure.points[i], track.path.front(), track.path.back(), track.level});
+    paths.push_back(track.path);
+    depths.push_back(structure.points[i]->z());
   }
   const double scale = 1.0 / geometry::median(std::move(depths));
   map.second_from_first.translation *= scale;
   for (InitialMap::Point& p : map.points) p.position *= scale;
-  if (camera_.profile().readout_s > 0.0) correct_for_readout(camera_, times_ns_, paths, map);
-  return {std::move(map), TrackingReason::None};
+  if (camera_.profile().readout_s > 0.0) {
+    correct_for_readout(camera_, tracks_->times_ns(), paths, map);
+  }
+  return map;
 }
 
 }  // namespace lumibox::tracking

@@ -4,17 +4,19 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "config/config.h"
 #include "geometry/camera.h"
 #include "geometry/pose.h"
-#include "geometry/two_view.h"
 #include "tracking/pyramid.h"
 #include "tracking/tracked_frame.h"
 
 namespace lumibox::tracking {
+
+class CornerTracks;
+class FlowPicture;
+struct FirstStructure;
 
 /// Two views and the points that both see; the first camera is the world, median depth is 1.
 struct InitialMap {
@@ -33,8 +35,10 @@ struct InitialMap {
   std::vector<Point> points;
 };
 
-/// Waits for two views from which the scene's shape is certain: corners of a first frame are
-/// followed until a motion with enough parallax explains them (thesis 2.1 did this by hand).
+/// Waits until the scene's shape is certain: corners of a first frame are followed until a motion
+/// explains them, with depths known well enough, twice in a row (thesis 2.1 did this by hand). When
+/// many corners have left the picture, those of a later frame are followed beside them and take
+/// over when the first are gone.
 class Initialiser {
  public:
   Initialiser(const geometry::Camera& camera, const config::Tracking& options, std::uint32_t seed);
@@ -47,29 +51,29 @@ class Initialiser {
   Progress add(const std::shared_ptr<const Pyramid>& frame, std::int64_t timestamp_ns);
 
  private:
-  struct Track;  ///< a corner followed since the first frame
+  /// The last structure that was certain, awaiting a second one that agrees.
+  struct Claim {
+    std::int64_t timestamp_ns = 0;  ///< of its last view
+    geometry::Pose last_from_first;
+  };
 
-  void restart(const std::shared_ptr<const Pyramid>& frame, std::int64_t timestamp_ns);
-  void follow(const std::shared_ptr<const Pyramid>& frame);
-  static void refine(const Pyramid& frame, Track& track);
-  double median_flow_px() const;
-  Progress solve(const std::shared_ptr<const Pyramid>& frame);
-  std::optional<geometry::Pose> decide(const geometry::TwoViewResult& motion,
-                                       std::span<const geometry::BearingPair> pairs,
-                                       std::span<const Track* const> used) const;
-  Progress make_map(const std::shared_ptr<const Pyramid>& frame,
-                    const geometry::Pose& second_from_first, const std::vector<bool>& inliers,
-                    std::span<const geometry::BearingPair> pairs,
-                    std::span<const Track* const> used) const;
+  void begin(const std::shared_ptr<const FlowPicture>& picture, std::int64_t timestamp_ns,
+             bool torn);
+  static bool holds(const std::unique_ptr<CornerTracks>& tracks);
+  bool is_due();
+  std::optional<InitialMap> attempt(const std::shared_ptr<const Pyramid>& frame);
+  std::optional<InitialMap> make_map(const std::shared_ptr<const Pyramid>& frame,
+                                     const FirstStructure& structure) const;
 
   geometry::Camera camera_;
   config::Tracking options_;
   std::uint32_t seed_;
-  std::shared_ptr<const Pyramid> first_;
-  std::shared_ptr<const Pyramid> last_;
-  std::vector<Track> tracks_;
-  std::size_t tracks_at_start_ = 0;
-  std::vector<std::int64_t> times_ns_;  // of the frames since the first
+  std::unique_ptr<CornerTracks> tracks_;  // null before the first frame
+  std::unique_ptr<CornerTracks> later_;   // of a later reference; null while tracks_ has enough
+  TrackingReason reason_ = TrackingReason::MoveSideways;
+  double flow_at_attempt_px_ = 0.0;
+  int frames_since_attempt_ = 0;
+  std::optional<Claim> claim_;
 };
 
 }  // namespace lumibox::tracking

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include "support/pinhole.h"
@@ -63,6 +64,34 @@ hal::Image render_wedge(const geometry::Camera& camera, const geometry::Pose& wo
     }
   }
   return image;
+}
+
+hal::Image render_wall(const geometry::Camera& camera, const geometry::Pose& world_from_camera,
+                       const Eigen::Vector2d& slope) {
+  hal::Image image(camera.width(), camera.height(), 1);
+  const Eigen::Vector3d normal(-slope.x(), -slope.y(), 1.0);  // normal . x = 2
+  const Eigen::Vector3d& origin = world_from_camera.translation;
+  for (int v = 0; v < image.height(); ++v) {
+    for (int u = 0; u < image.width(); ++u) {
+      const auto n = camera.unproject(Eigen::Vector2d(u, v));
+      const Eigen::Vector3d direction = world_from_camera.rotation * n->homogeneous();
+      const double t = (2.0 - normal.dot(origin)) / normal.dot(direction);
+      const Eigen::Vector3d hit = origin + (t > 0.0 ? t : 1e3) * direction;
+      *image.at(u, v) = static_cast<std::uint8_t>(std::lround(painted(hit.x(), hit.y())));
+    }
+  }
+  return image;
+}
+
+hal::Image with_noise(const hal::Image& image, double sigma, std::uint32_t seed) {
+  hal::Image noisy = image;
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> level(0.0, sigma);
+  for (std::size_t i = 0; i < noisy.size_bytes(); ++i) {
+    const double value = static_cast<double>(noisy.data()[i]) + level(generator);
+    noisy.data()[i] = static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
+  }
+  return noisy;
 }
 
 geometry::Camera small_camera() {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <cstdint>
+
 #include "geometry/camera.h"
 #include "geometry/pose.h"
 #include "hal/image.h"
@@ -16,6 +19,13 @@ double painted(double x, double y);
 /// A room corner seen by a camera at `world_from_camera`: two textured planes, z = 2 + 0.8 |x|. Its
 /// edge makes it a scene that no single plane explains.
 hal::Image render_wedge(const geometry::Camera& camera, const geometry::Pose& world_from_camera);
+
+/// A painted wall z = 2 + slope . (x, y), and nothing else.
+hal::Image render_wall(const geometry::Camera& camera, const geometry::Pose& world_from_camera,
+                       const Eigen::Vector2d& slope);
+
+/// The picture with a sensor's noise, grey levels, drawn from `seed`.
+hal::Image with_noise(const hal::Image& image, double sigma, std::uint32_t seed);
 
 geometry::Camera small_camera();
 

@@ -120,7 +120,9 @@ TEST(Tracker, TurningOnlyMakesNoMap) {
 
 TEST(Tracker, ABlankPictureHasTooLittleTexture) {
   Tracker tracker(testing::small_camera(), options(), Mapping::Lockstep, 1);
-  const std::vector<hal::Image> blank(3, hal::Image(320, 240, 1));
+  hal::Image wall(320, 240, 1);
+  std::fill_n(wall.data(), wall.size_bytes(), std::uint8_t{180});
+  const std::vector<hal::Image> blank(3, wall);
   for (const auto& f : run(tracker, blank)) {
     EXPECT_EQ(f.reason, TrackingReason::TooLittleTexture);
   }
