@@ -182,8 +182,7 @@ class Tracker::Impl {
     const double seconds = last_pose_ns_
                                ? 1e-9 * static_cast<double>(motion_.timestamp_ns() - *last_pose_ns_)
                                : std::numeric_limits<double>::infinity();
-    const auto chosen =
-        choose_place(places, {camera_from_world_, depth, seconds});
+    const auto chosen = choose_place(places, {camera_from_world_, depth, seconds});
     if (!chosen) return nullptr;
     const Localisation* found =
         localiser_.localise(*map_, frame, places[*chosen].camera_from_world);

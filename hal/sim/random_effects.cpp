@@ -1,7 +1,8 @@
 #include "hal/sim/random_effects.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
+
+#include "hal/sim/random_textures.h"
 
 namespace lumibox::hal::sim {
 namespace {
@@ -25,7 +26,7 @@ LensDistortionSpec random_lens(config::CameraProfile& camera, Random& random) {
 }
 
 /// Somebody's arm that passes between camera and subject in the middle of the walk.
-OccluderSpec random_occluder(const SceneSpec& scene, Random& random) {
+OccluderSpec random_occluder(SceneSpec& scene, Random& random) {
   const std::vector<KeyPose>& keys = scene.path.keys;
   const KeyPose& key =
       keys[static_cast<std::size_t>(random.uniform(0.35, 0.7) * static_cast<double>(keys.size()))];
@@ -35,11 +36,15 @@ OccluderSpec random_occluder(const SceneSpec& scene, Random& random) {
   const double side = random.uniform() < 0.5 ? -1.0 : 1.0;
   OccluderSpec occluder;
   occluder.size = sight.norm() * random.uniform(0.12, 0.25) * Eigen::Vector3d(0.6, 0.6, 1.6);
-  occluder.duration_s = random.uniform(1.0, 2.0);
+  occluder.duration_s = random.uniform(2.5, 4.0);
   occluder.start_s = scene.path.lead_in_s + key.time_s - 0.5 * occluder.duration_s;
-  occluder.from = middle - side * sight.norm() * across;
-  occluder.to = middle + side * sight.norm() * across;
-  occluder.texture = "";
+  // It stands at either end of its way, so both are well out of view.
+  const Eigen::Vector3d away = 2.0 * side * sight.norm() * across;
+  occluder.from = middle - away;
+  occluder.to = middle + away;
+  scene.textures.push_back(random_texture("sleeve", {Pattern::Plaid, Pattern::Noise},
+                                          occluder.size.z(), occluder.size.z(), 0.002, random));
+  occluder.texture = "sleeve";
   return occluder;
 }
 

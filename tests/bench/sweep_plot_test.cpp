@@ -42,6 +42,16 @@ TEST(SweepPlot, HasADiagramPerSettingAndALinePerFootage) {
                           HasSubstr(">100 (50 %)<"), HasSubstr(">400<")));
 }
 
+TEST(SweepPlot, DiagramsShareTheirAxesWithThoseOfTheSameCostOnly) {
+  const auto points = [](double ms) {
+    return std::vector<SweepPoint>{{111, false, ms, 5.0}, {222, true, 4.0 * ms, 5.0}};
+  };
+  const std::string text = draw_sweep("costs", {{"a", "walk", points(1.0), "tracker", "error"},
+                                                {"b", "walk", points(100.0), "mapper", "error"}})
+                               .str();
+  EXPECT_THAT(text, AllOf(HasSubstr(">2<"), HasSubstr(">200<"))) << "ticks of either";
+}
+
 TEST(SweepPlot, PointsThatLieTogetherShareALabel) {
   const std::string text =
       draw_sweep("costs", {{"pyramid_levels",

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hal/replay/replay_camera.h"
+#include "hal/sim/random_scene.h"
 #include "hal/sim/virtual_clock.h"
 #include "support/recording.h"
 
@@ -44,6 +45,23 @@ TEST(Footage, HalvedIsWhatACameraOfHalfTheSizeSees) {
   EXPECT_EQ(half.frames[0].gray->width(), 16);
   EXPECT_EQ(half.frames.size(), 5U);
   EXPECT_EQ(half.truth.size(), 5U);
+}
+
+TEST(Footage, OfASceneKnowsWhereEachPictureWasTaken) {
+  hal::sim::SceneSpec spec =
+      hal::sim::random_scene({3, hal::sim::Place::Can, hal::sim::Walk::Arc, {}});
+  spec.camera = geometry::Camera(spec.camera).at_level(3).profile();
+  const auto scene = hal::make_scene(spec);
+  const Footage footage = film_scene("can", scene, 4);
+  ASSERT_EQ(footage.frames.size(), 4U);
+  ASSERT_EQ(footage.truth.size(), 4U);
+  EXPECT_EQ(footage.frames[3].gray->width(), 80);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double time_s = 1e-9 * static_cast<double>(footage.frames[i].timestamp_ns);
+    EXPECT_EQ(footage.truth[i].timestamp_s, time_s);
+    EXPECT_EQ(footage.truth[i].world_from_camera.translation,
+              scene->world_from_camera(time_s).translation);
+  }
 }
 
 TEST(TrackingVariations, DifferInOneSettingAndHoldTheDefaultOnce) {

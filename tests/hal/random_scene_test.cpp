@@ -260,6 +260,8 @@ TEST(RandomScene, OccluderPassesBeforeTheSubject) {
   for (std::uint64_t seed = 0; seed < kSeeds; ++seed) {
     const SceneSpec scene = random_scene({seed, Place::Desk, Walk::Arc, {Effect::PassingOccluder}});
     const OccluderSpec& occluder = scene.effects.occluders.front();
+    EXPECT_GT(occluder.start_s, 0.0) << seed;
+    EXPECT_LT(occluder.start_s + occluder.duration_s, scene.duration_s) << seed;
     const HandPath path(scene.path, scene.duration_s);
     const double middle_s = occluder.start_s + 0.5 * occluder.duration_s;
     const Eigen::Vector3d eye = path.world_from_camera(middle_s).translation;
