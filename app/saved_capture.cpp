@@ -1,5 +1,7 @@
 #include "app/saved_capture.h"
 
+#include <fmt/core.h>
+
 #include <charconv>
 #include <string_view>
 #include <system_error>
@@ -16,9 +18,7 @@ namespace fs = std::filesystem;
 constexpr std::string_view kPrefix = "capture-";
 
 fs::path capture_folder(const fs::path& captures, int number) {
-  const std::string digits = std::to_string(number);
-  const std::string padding(digits.size() < 4 ? 4 - digits.size() : 0, '0');
-  return captures / (std::string(kPrefix) + padding + digits);
+  return captures / fmt::format("{}{:04}", kPrefix, number);
 }
 
 /// Number of the last capture; 0 if there is none.

@@ -10,6 +10,7 @@
 #include "calibration/lens_fit.h"
 #include "calibration/uncertainty.h"
 #include "geometry/camera.h"
+#include "geometry/robust.h"
 
 namespace lumibox::calibration {
 namespace {
@@ -26,12 +27,6 @@ constexpr double kLargestRelativeDeviation = 0.005;
 
 double degrees(double radians) {
   return radians * 180.0 / std::numbers::pi;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The sightings still in use, and the lens of them.
@@ -57,7 +52,8 @@ bool fit(const Request& request, Kept& kept) {
 
 std::optional<std::size_t> worst_outlier(const Kept& kept) {
   const auto worst = std::ranges::max_element(kept.errors_px);
-  if (!(*worst > kOutlierFactor * median(kept.errors_px))) return std::nullopt;
+  std::vector<double> errors_px = kept.errors_px;
+  if (!(*worst > kOutlierFactor * geometry::upper_median(errors_px))) return std::nullopt;
   return static_cast<std::size_t>(worst - kept.errors_px.begin());
 }
 

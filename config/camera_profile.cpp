@@ -21,11 +21,15 @@ std::optional<std::string> foreign_coefficient(const CameraProfile& c) {
   if (fisheye && c.p1 == 0.0 && c.p2 != 0.0) message << "p2 is " << c.p2;
   if (!fisheye && c.k4 != 0.0) message << "k4 is " << c.k4;
   if (message.str().empty()) return std::nullopt;
-  message << "; expected 0 of a lens of the model \"" << (fisheye ? "fisheye" : "opencv") << '"';
+  message << "; expected 0 of a lens of the model \"" << name_of(c.model) << '"';
   return message.str();
 }
 
 }  // namespace
+
+const char* name_of(LensModel model) {
+  return model == LensModel::Fisheye ? "fisheye" : "opencv";
+}
 
 std::optional<std::string> fault_of(const CameraProfile& profile) {
   const double width = profile.width;

@@ -11,6 +11,9 @@ enum class LensModel {
   Fisheye,  ///< theta (1 + k1 theta^2 + ... + k4 theta^8) (Kannala and Brandt, 2006): k1 k2 k3 k4
 };
 
+/// As profiles and captures have it: "opencv" or "fisheye".
+const char* name_of(LensModel model);
+
 /// What is known of a camera before it is opened: pixel centres at integers, lengths in pixels.
 /// Comes from calib.txt, a profile file, or a recording.
 struct CameraProfile {

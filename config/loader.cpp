@@ -202,7 +202,7 @@ CameraProfile load_camera_profile(const fs::path& file) {
 }
 
 std::string profile_text(const CameraProfile& profile) {
-  ProfileFile file{profile, profile.model == LensModel::Fisheye ? "fisheye" : "opencv"};
+  ProfileFile file{profile, name_of(profile.model)};
   std::ostringstream text;
   text.precision(std::numeric_limits<double>::max_digits10);
   for (const Key& key : schema(file)) {

@@ -18,13 +18,19 @@ double huber_weight(double residual, double limit) {
   return magnitude <= limit ? 1.0 : limit / magnitude;
 }
 
-double median(std::vector<double> values) {
+double upper_median(std::span<double> values) {
   if (values.empty()) return 0.0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  const double below = *std::max_element(values.begin(), middle);
-  return below + 0.5 * (*middle - below);
+  return *middle;
+}
+
+double median(std::vector<double> values) {
+  const double middle = upper_median(values);
+  if (values.empty() || values.size() % 2 == 1) return middle;
+  const double below = *std::max_element(
+      values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+  return below + 0.5 * (middle - below);
 }
 
 double quantile(std::vector<double> values, double share) {

@@ -17,6 +17,13 @@ double huber_weight(double residual, double limit);
 /// purpose: the values are reordered.
 double median(std::vector<double> values);
 
+/// The upper of the two middle values for an even number, in place: the values are reordered, and
+/// no memory is taken. 0 for none.
+double upper_median(std::span<double> values);
+
+/// Median length of a vector of two independent Gaussian components, in their standard deviations.
+inline constexpr double kMedianLength = 1.1774;
+
 /// The value below which the share `share` of the values lies (nearest rank): 0.95 is the 95th
 /// percentile, 1 the largest. 0 for none.
 double quantile(std::vector<double> values, double share);

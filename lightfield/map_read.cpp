@@ -30,7 +30,7 @@ Eigen::Vector3d read_position(const JsonValue& value) {
 /// A map is of use to the camera that it was made with alone: a picture's points lie elsewhere in
 /// one of another lens.
 void require_same_camera(const JsonValue& saved, const config::CameraProfile& c) {
-  const std::string model = c.model == config::LensModel::Fisheye ? "fisheye" : "opencv";
+  const std::string model = config::name_of(c.model);
   if (saved.at("model").text() != model) {
     saved.at("model").fail("is " + printable(saved.at("model").text()) + ", but the camera's is " +
                            model + "; expected the camera that the map was made with");

@@ -5,6 +5,7 @@
 #include "geometry/rotation.h"
 #include "hal/image_io.h"
 #include "lightfield/map_files.h"
+#include "lightfield/text_numbers.h"
 
 namespace lumibox::lightfield {
 namespace {
@@ -17,7 +18,7 @@ Json to_json(const Eigen::VectorXd& v) {
 }
 
 Json to_json(const config::CameraProfile& c) {
-  return {{"model", c.model == config::LensModel::Fisheye ? "fisheye" : "opencv"},
+  return {{"model", config::name_of(c.model)},
           {"width", c.width},
           {"height", c.height},
           {"fx", c.fx},
@@ -94,9 +95,7 @@ std::string map_json(const MapView& map, const geometry::Camera& camera) {
 }  // namespace
 
 std::string map_picture_file(tracking::KeyframeId id) {
-  std::string digits = std::to_string(id);
-  digits.insert(0, digits.size() < 6 ? 6 - digits.size() : 0, '0');
-  return std::string(kMapFolder) + "/" + digits + ".png";
+  return std::string(kMapFolder) + "/" + six_digits(id) + ".png";
 }
 
 MapWriter::MapWriter(std::filesystem::path capture, std::size_t on_disk)

@@ -24,6 +24,12 @@ std::string to_text(double value) {
   return {text.data(), result.ptr};
 }
 
+std::string six_digits(int number) {
+  std::string digits = std::to_string(number);
+  digits.insert(0, digits.size() < 6 ? 6 - digits.size() : 0, '0');
+  return digits;
+}
+
 std::string printable(std::string_view text) {
   std::string shown(text.substr(0, 80));
   for (char& c : shown) {

@@ -9,6 +9,9 @@ namespace lumibox::lightfield {
 /// Shortest text that reads back as the same double, whatever the locale.
 std::string to_text(double value);
 
+/// With zeros before it if it has fewer than six digits, as in names of files.
+std::string six_digits(int number);
+
 /// A piece of a bad file fit for a one-line message: the beginning, without control characters.
 std::string printable(std::string_view text);
 

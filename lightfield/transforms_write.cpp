@@ -7,6 +7,7 @@
 #include "geometry/rotation.h"
 #include "lightfield/camera_io.h"
 #include "lightfield/opengl_axes.h"
+#include "lightfield/text_numbers.h"
 #include "lightfield/transforms.h"
 
 namespace lumibox::lightfield {
@@ -99,9 +100,7 @@ bool one_lens(std::span<const Perspective> perspectives) {
 }  // namespace
 
 std::string picture_file(int id, const std::string& extension) {
-  std::string digits = std::to_string(id);
-  digits.insert(0, digits.size() < 6 ? 6 - digits.size() : 0, '0');
-  return std::string(kImagesFolder) + "/" + digits + extension;
+  return std::string(kImagesFolder) + "/" + six_digits(id) + extension;
 }
 
 std::string transforms_json(std::span<const Perspective> perspectives,

@@ -132,9 +132,9 @@ std::optional<Eigen::Vector2d> predict(const geometry::Camera& camera, const Bun
   return camera.project(o.row_from_frame * (view.camera_from_world * point));
 }
 
-/// Standard deviation of the errors, in sigmas, told by their median, which in two dimensions is
-/// 1.1774 of it. With a rolling shutter it is not told: the motion during the readout is known to
-/// the first order only, and its errors, which rows share, are no noise.
+/// Standard deviation of the errors, in sigmas, told by their median. With a rolling shutter it is
+/// not told: the motion during the readout is known to the first order only, and its errors, which
+/// rows share, are no noise.
 double noise_of(const geometry::Camera& camera, const BundleProblem& problem) {
   std::vector<double> errors;
   errors.reserve(problem.observations.size());
@@ -144,7 +144,8 @@ double noise_of(const geometry::Camera& camera, const BundleProblem& problem) {
       errors.push_back((*pixel - o.pixel).norm() / o.sigma_px);
     }
   }
-  return std::clamp(geometry::median(std::move(errors)) / 1.1774, kMinNoise, kMaxNoise);
+  return std::clamp(geometry::median(std::move(errors)) / geometry::kMedianLength, kMinNoise,
+                    kMaxNoise);
 }
 
 void set_errors(const geometry::Camera& camera, BundleProblem& problem) {

@@ -1,7 +1,6 @@
 #include "tracking/covisibility.h"
 
 #include <algorithm>
-#include <map>
 #include <queue>
 #include <utility>
 
@@ -9,25 +8,36 @@ namespace lumibox::tracking {
 
 CovisibilityGraph::CovisibilityGraph(const Map& map, int min_shared)
     : steps_(map.keyframes().size()) {
-  std::map<std::pair<KeyframeId, KeyframeId>, int> shared;
-  for (const auto& [id, point] : map.points()) {
-    for (std::size_t i = 0; i < point.sightings.size(); ++i) {
-      for (std::size_t j = i + 1; j < point.sightings.size(); ++j) {
-        ++shared[std::minmax(point.sightings[i].keyframe, point.sightings[j].keyframe)];
-      }
+  const auto count = static_cast<KeyframeId>(steps_.size());
+  for (KeyframeId a = 0; a < count; ++a) {
+    const std::vector<int> shared = shared_points(map, a);
+    for (KeyframeId b = a + 1; b < count; ++b) {
+      const int points = shared[static_cast<std::size_t>(b)];
+      if (points < std::max(min_shared, 1)) continue;
+      edges_.push_back({a, b, points});
+      const geometry::Pose& from = map.keyframe(a).world_from_camera;
+      const geometry::Pose& to = map.keyframe(b).world_from_camera;
+      const Way way{(from.translation - to.translation).norm(),
+                    from.rotation.angularDistance(to.rotation)};
+      steps_[static_cast<std::size_t>(a)].push_back({b, way});
+      steps_[static_cast<std::size_t>(b)].push_back({a, way});
     }
   }
-  for (const auto& [pair, count] : shared) {
-    if (count < min_shared) continue;
-    const auto [a, b] = pair;
-    edges_.push_back({a, b, count});
-    const geometry::Pose& from = map.keyframe(a).world_from_camera;
-    const geometry::Pose& to = map.keyframe(b).world_from_camera;
-    const Way way{(from.translation - to.translation).norm(),
-                  from.rotation.angularDistance(to.rotation)};
-    steps_[static_cast<std::size_t>(a)].push_back({b, way});
-    steps_[static_cast<std::size_t>(b)].push_back({a, way});
+}
+
+std::set<KeyframeId> CovisibilityGraph::within(KeyframeId start, int steps) const {
+  std::set<KeyframeId> reached{start};
+  std::vector<KeyframeId> front{start};
+  for (int i = 0; i < steps; ++i) {
+    std::vector<KeyframeId> next;
+    for (const KeyframeId from : front) {
+      for (const Step& step : steps_[static_cast<std::size_t>(from)]) {
+        if (reached.insert(step.to).second) next.push_back(step.to);
+      }
+    }
+    front = std::move(next);
   }
+  return reached;
 }
 
 std::vector<Way> CovisibilityGraph::ways_from(KeyframeId start, double max_step,
@@ -54,12 +64,17 @@ std::vector<Way> CovisibilityGraph::ways_from(KeyframeId start, double max_step,
   return ways;
 }
 
-std::vector<KeyframeId> covisible_keyframes(const Map& map, KeyframeId id, int count) {
+std::vector<int> shared_points(const Map& map, KeyframeId id) {
   std::vector<int> shared(map.keyframes().size(), 0);
   for (const PointId point : map.keyframe(id).points) {
     for (const Sighting& s : map.point(point).sightings)
       ++shared[static_cast<std::size_t>(s.keyframe)];
   }
+  return shared;
+}
+
+std::vector<KeyframeId> covisible_keyframes(const Map& map, KeyframeId id, int count) {
+  const std::vector<int> shared = shared_points(map, id);
   std::vector<KeyframeId> order;
   for (KeyframeId k = 0; k < static_cast<KeyframeId>(shared.size()); ++k) {
     if (k != id && shared[static_cast<std::size_t>(k)] > 0) order.push_back(k);

@@ -1,11 +1,18 @@
 #pragma once
 
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "tracking/map.h"
 
 namespace lumibox::tracking {
+
+/// Points shared by keyframes that hold each other and belong to one part of the map.
+inline constexpr int kConnected = 15;
+
+/// How many points of `id` each keyframe sees, by KeyframeId.
+std::vector<int> shared_points(const Map& map, KeyframeId id);
 
 /// Keyframes that share most points with `id`, most first, at most `count`; without `id` itself.
 std::vector<KeyframeId> covisible_keyframes(const Map& map, KeyframeId id, int count);
@@ -30,6 +37,9 @@ class CovisibilityGraph {
   CovisibilityGraph(const Map& map, int min_shared);
 
   const std::vector<Edge>& edges() const { return edges_; }
+
+  /// Keyframes at most `steps` edges away from `start`, and itself.
+  std::set<KeyframeId> within(KeyframeId start, int steps) const;
 
   /// The shortest way from `start` to every keyframe, by KeyframeId; infinitely long where there is
   /// none. Steps longer than `max_step` are not gone, nor does a way go through `without`.

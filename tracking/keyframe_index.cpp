@@ -147,13 +147,6 @@ int KeyframeIndex::described() const {
                                         [](const Entry& e) { return e.corners.has_value(); }));
 }
 
-const MapView::Point* find_point(const MapView& map, PointId id) {
-  const auto place =
-      std::lower_bound(map.points.begin(), map.points.end(), id,
-                       [](const MapView::Point& p, PointId wanted) { return p.id < wanted; });
-  return place != map.points.end() && place->id == id ? &*place : nullptr;
-}
-
 std::optional<geometry::Pose> pose_from_matches(const geometry::Camera& camera, const MapView& map,
                                                 const DescribedCorners& corners,
                                                 const std::vector<PointMatch>& matches,

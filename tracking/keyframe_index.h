@@ -78,9 +78,6 @@ class KeyframeIndex {
   std::vector<Entry> entries_;  // by KeyframeId
 };
 
-/// The point of a view with this id; none if the view has none.
-const MapView::Point* find_point(const MapView& map, PointId id);
-
 /// camera_from_world of a picture with these matched corners, by P3P with outliers; none if too few
 /// matches agree on one.
 std::optional<geometry::Pose> pose_from_matches(const geometry::Camera& camera, const MapView& map,

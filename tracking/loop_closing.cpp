@@ -12,14 +12,13 @@
 namespace lumibox::tracking {
 namespace {
 
-constexpr int kConnected = 15;      // points shared by keyframes that hold each other
 constexpr double kSamePixel = 0.3;  // of the level; corners farther apart are not one point
 constexpr double kSameDepth = 0.1;  // share of the depth
 constexpr double kStep = 0.35;      // depths: 20 degrees around what is seen
 constexpr double kFar = 1.5;        // depths along the walk, several times as far as it is across
 
 /// Nodes by KeyframeId; culled keyframes are fixed nodes without edges.
-PoseGraph make_graph(const Map& map, const Loop& loop) {
+PoseGraph make_graph(const Map& map, const CovisibilityGraph& covisibility, const Loop& loop) {
   PoseGraph graph;
   for (const Map::Keyframe& k : map.keyframes()) {
     graph.nodes.push_back({{1.0, k.world_from_camera}, graph.nodes.empty() || k.culled()});
@@ -32,7 +31,6 @@ PoseGraph make_graph(const Map& map, const Loop& loop) {
     graph.edges.push_back({a, b, place(a).inverse() * world_from_b});
     held[static_cast<std::size_t>(a)] = held[static_cast<std::size_t>(b)] = true;
   };
-  const CovisibilityGraph covisibility(map, kConnected);
   for (const auto& edge : covisibility.edges()) {
     hold(edge.a, edge.b, place(edge.b));
   }
@@ -75,9 +73,7 @@ std::vector<Seen> seen_by(const Map& map, KeyframeId id) {
   std::vector<Seen> seen;
   for (const PointId p : map.keyframe(id).points) {
     const Map::Point& point = map.point(p);
-    for (const Sighting& s : point.sightings) {
-      if (s.keyframe == id) seen.push_back({p, s, (camera_from_world * point.position).z()});
-    }
+    seen.push_back({p, *point.sighting_in(id), (camera_from_world * point.position).z()});
   }
   return seen;
 }
@@ -103,8 +99,8 @@ int merge_duplicates(Map& map, KeyframeId id) {
   return merged;
 }
 
-bool close_loop(Map& map, const Loop& loop) {
-  PoseGraph graph = make_graph(map, loop);
+bool close_loop(Map& map, const CovisibilityGraph& covisibility, const Loop& loop) {
+  PoseGraph graph = make_graph(map, covisibility, loop);
   if (!optimise(graph, map.keyframe(loop.then).median_depth)) return false;
   move_map(map, graph);
   for (const Loop::Tie& tie : loop.ties) {
@@ -117,10 +113,9 @@ bool close_loop(Map& map, const Loop& loop) {
   return true;
 }
 
-bool has_met_itself(const Map& map, KeyframeId id) {
+bool has_met_itself(const Map& map, const CovisibilityGraph& graph, KeyframeId id) {
   const std::vector<KeyframeId> nearest = covisible_keyframes(map, id, 1);
   if (nearest.empty()) return false;
-  const CovisibilityGraph graph(map, kConnected);
   const double depth = map.keyframe(id).median_depth;
   const std::vector<Way> ways = graph.ways_from(nearest.front(), kStep * depth, id);
   const Eigen::Vector3d here = map.keyframe(id).world_from_camera.translation;

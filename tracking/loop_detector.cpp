@@ -11,7 +11,6 @@
 namespace lumibox::tracking {
 namespace {
 
-constexpr int kConnected = 15;         // points shared by keyframes that belong together
 constexpr int kNear = 10;              // keyframes around one that are its part of the map
 constexpr std::size_t kShortlist = 3;  // keyframes that look alike, and as many that are near
 constexpr double kSight = 0.5;  // depths, and radians, between keyframes that show the same place
@@ -21,35 +20,6 @@ constexpr double kAgreeLength = 0.1;   // of the depth: ties that say the same
 constexpr double kAgreeTurn = 0.07;    // radians
 constexpr std::uint32_t kSeed = 1;     // of the sampling in P3P
 
-/// Keyframes that share many points with `id`, and those that do with them.
-std::set<KeyframeId> connected_to(const Map& map, KeyframeId id) {
-  std::set<KeyframeId> connected{id};
-  std::vector<KeyframeId> front{id};
-  for (int hop = 0; hop < 2; ++hop) {
-    std::vector<KeyframeId> next;
-    for (const KeyframeId from : front) {
-      std::vector<int> shared(map.keyframes().size(), 0);
-      for (const PointId p : map.keyframe(from).points) {
-        for (const Sighting& s : map.point(p).sightings)
-          ++shared[static_cast<std::size_t>(s.keyframe)];
-      }
-      for (KeyframeId k = 0; k < static_cast<KeyframeId>(shared.size()); ++k) {
-        if (shared[static_cast<std::size_t>(k)] < kConnected) continue;
-        if (connected.insert(k).second) next.push_back(k);
-      }
-    }
-    front = std::move(next);
-  }
-  return connected;
-}
-
-const Sighting* sighting_in(const Map::Point& point, KeyframeId keyframe) {
-  for (const Sighting& s : point.sightings) {
-    if (s.keyframe == keyframe) return &s;
-  }
-  return nullptr;
-}
-
 /// The points of a keyframe and of those around it, but for those that `id` sees.
 MapView part_around(const Map& map, KeyframeId then, KeyframeId id) {
   std::set<PointId> points;
@@ -57,7 +27,7 @@ MapView part_around(const Map& map, KeyframeId then, KeyframeId id) {
   part.push_back(then);
   for (const KeyframeId k : part) {
     for (const PointId p : map.keyframe(k).points) {
-      if (!sighting_in(map.point(p), id)) points.insert(p);
+      if (!map.point(p).sighting_in(id)) points.insert(p);
     }
   }
   return map.view_of({points.begin(), points.end()});
@@ -70,7 +40,7 @@ std::optional<double> scale_between(const Map& map, KeyframeId id, const Localis
   std::vector<double> ratios;
   for (const PointId p : map.keyframe(id).points) {
     const Map::Point& point = map.point(p);
-    const Sighting* seen = sighting_in(point, id);
+    const Sighting* seen = point.sighting_in(id);
     for (const Measurement& m : found.measurements) {
       if (!m.inlier || (m.pixel - seen->pixel).norm() > kSamePixel * (1 << seen->level)) continue;
       ratios.push_back((found.pose.camera_from_world * m.position).z() /
@@ -108,14 +78,15 @@ bool is_plausible(const Drift& drift, const Way& way) {
          drift.scale < kMaxScale && drift.scale > 1.0 / kMaxScale;
 }
 
-std::optional<Loop> LoopDetector::find(const Map& map, KeyframeId id, std::size_t min_ties) {
+std::optional<Loop> LoopDetector::find(const Map& map, const CovisibilityGraph& graph,
+                                       KeyframeId id, std::size_t min_ties) {
   const MapView view = map.view(0);
   index_.update(view);
-  const std::vector<Way> ways = CovisibilityGraph(map, kConnected).ways_from(id);
+  const std::vector<Way> ways = graph.ways_from(id);
   const geometry::Pose& present = map.keyframe(id).world_from_camera;
   std::vector<Place> places;
   std::vector<PossiblePlace> possible;
-  for (const KeyframeId then : candidates(map, id, ways)) {
+  for (const KeyframeId then : candidates(map, graph, id, ways)) {
     auto place = locate(map, view, id, then);
     if (!place) continue;
     const geometry::Similarity& there = place->tie.world_from_keyframe;
@@ -135,9 +106,10 @@ std::optional<Loop> LoopDetector::find(const Map& map, KeyframeId id, std::size_
 /// Keyframes of other parts of the map in which `id` could be, as far as tracking can have drifted:
 /// those that look most like it, and those that would be nearest if it had not. Small images alone
 /// tell little where an object fills the picture on all sides.
-std::vector<KeyframeId> LoopDetector::candidates(const Map& map, KeyframeId id,
+std::vector<KeyframeId> LoopDetector::candidates(const Map& map, const CovisibilityGraph& graph,
+                                                 KeyframeId id,
                                                  const std::vector<Way>& ways) const {
-  const std::set<KeyframeId> connected = connected_to(map, id);
+  const std::set<KeyframeId> connected = graph.within(id, 2);
   const Map::Keyframe& here = map.keyframe(id);
   std::vector<std::pair<double, KeyframeId>> near;
   std::set<KeyframeId> possible;

@@ -50,12 +50,14 @@ class LoopDetector {
       : camera_(camera), localiser_(camera, options) {}
 
   /// The older place that keyframe `id` shows; none if there is none or too few of the keyframes
-  /// around it (fewer than `min_ties`, itself included) see it as well.
-  std::optional<Loop> find(const Map& map, KeyframeId id, std::size_t min_ties);
+  /// around it (fewer than `min_ties`, itself included) see it as well. `graph` joins what is
+  /// kConnected.
+  std::optional<Loop> find(const Map& map, const CovisibilityGraph& graph, KeyframeId id,
+                           std::size_t min_ties);
 
  private:
   struct Place;
-  std::vector<KeyframeId> candidates(const Map& map, KeyframeId id,
+  std::vector<KeyframeId> candidates(const Map& map, const CovisibilityGraph& graph, KeyframeId id,
                                      const std::vector<Way>& ways) const;
   std::optional<Place> locate(const Map& map, const MapView& view, KeyframeId id, KeyframeId then);
   std::vector<geometry::Pose> guesses(const Map& map, const MapView& view, KeyframeId id,

@@ -16,6 +16,11 @@ void append_point(MapView& view, PointId id, const Map::Point& point) {
 
 }  // namespace
 
+const Sighting* Map::Point::sighting_in(KeyframeId keyframe) const {
+  const auto place = std::ranges::find(sightings, keyframe, &Sighting::keyframe);
+  return place != sightings.end() ? &*place : nullptr;
+}
+
 Map::Map(const MapView& view) : next_point_(view.next_point) {
   for (const MapView::Keyframe& k : view.keyframes) {
     keyframes_.push_back({k.world_from_camera,

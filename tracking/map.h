@@ -20,6 +20,8 @@ class Map {
     std::vector<Sighting> sightings;
     int searched = 0;  ///< frames in which the tracker expected it
     int found = 0;     ///< frames in which it was found
+
+    const Sighting* sighting_in(KeyframeId keyframe) const;  ///< null: not seen there
   };
   struct Keyframe {
     geometry::Pose world_from_camera;                               ///< of the middle row

@@ -1,7 +1,8 @@
 #include "tracking/map_tracking.h"
 
-#include <algorithm>
 #include <utility>
+
+#include "geometry/robust.h"
 
 namespace lumibox::tracking {
 
@@ -49,9 +50,7 @@ void Localiser::estimate(const geometry::FramePose& start) {
   for (const Measurement& m : located_.measurements) {
     if (m.inlier) depths_.push_back((estimate.pose.camera_from_world * m.position).z());
   }
-  const auto middle = depths_.begin() + static_cast<std::ptrdiff_t>(depths_.size() / 2);
-  std::nth_element(depths_.begin(), middle, depths_.end());
-  located_.median_depth = depths_.empty() ? 0.0 : *middle;
+  located_.median_depth = geometry::upper_median(depths_);
 }
 
 }  // namespace lumibox::tracking

@@ -59,4 +59,7 @@ struct MapView {
   PointId next_point = 0;           ///< id of the next new point
 };
 
+/// The point with that id; null if the map has none.
+const MapView::Point* find_point(const MapView& map, PointId id);
+
 }  // namespace lumibox::tracking

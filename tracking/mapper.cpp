@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "config/log.h"
+#include "tracking/covisibility.h"
 #include "tracking/loop_closing.h"
 #include "tracking/map_adjustment.h"
 #include "tracking/point_creation.h"
@@ -152,11 +153,12 @@ void Mapper::integrate(const KeyframeRequest& request) {
 
 /// Looks whether keyframe `id` shows a place that another part of the map shows too.
 bool Mapper::close_loop_at(KeyframeId id, std::size_t min_ties) {
+  const CovisibilityGraph graph(map_, kConnected);
   // A tie takes some keyframes to grow: they are one loop.
-  bool met = id - last_loop_ >= kLoopKeyframes && has_met_itself(map_, id);
+  bool met = id - last_loop_ >= kLoopKeyframes && has_met_itself(map_, graph, id);
   if (!met) {
-    const auto loop = loops_.find(map_, id, min_ties);
-    met = loop && close_loop(map_, *loop);
+    const auto loop = loops_.find(map_, graph, id, min_ties);
+    met = loop && close_loop(map_, graph, *loop);
   }
   if (!met) return false;
   ++loops_closed_;

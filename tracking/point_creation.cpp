@@ -162,9 +162,8 @@ class OccupiedCells {
     cells_.resize(static_cast<std::size_t>(keyframe.pyramid->levels()));
     for (auto& level : cells_) level.resize(static_cast<std::size_t>(columns_ * rows_));
     for (const PointId point : keyframe.points) {
-      for (const Sighting& s : map.point(point).sightings) {
-        if (s.keyframe == id) mark(to_level(s.pixel, s.level), s.level);
-      }
+      const Sighting& s = *map.point(point).sighting_in(id);
+      mark(to_level(s.pixel, s.level), s.level);
     }
   }
   void mark(const Eigen::Vector2d& pixel, int level) { cell(pixel, level) = true; }

@@ -89,10 +89,7 @@ double PoseEstimator::robust_sigma() {
     if (std::isfinite(length)) sorted.push_back(length);
   }
   if (sorted.empty()) return kMaxSigma;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  // The median length of a 2D Gaussian is 1.1774 sigma.
-  return std::clamp(*middle / 1.1774, kMinSigma, kMaxSigma);
+  return std::clamp(geometry::upper_median(sorted) / geometry::kMedianLength, kMinSigma, kMaxSigma);
 }
 
 PoseEstimate PoseEstimator::estimate(std::span<Measurement> measurements,

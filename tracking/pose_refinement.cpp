@@ -11,11 +11,6 @@ constexpr int kIterations = 10;
 constexpr int kMinInliers = 40;    // as many as a pose to record with needs
 constexpr double kMinShare = 0.5;  // of what was measured: the rest may be culled or merged
 
-const MapView::Point* find_point(const MapView& map, PointId id) {
-  const auto place = std::ranges::lower_bound(map.points, id, {}, &MapView::Point::id);
-  return place != map.points.end() && place->id == id ? &*place : nullptr;
-}
-
 }  // namespace
 
 std::optional<geometry::Pose> refine_pose(const geometry::Camera& camera, const MapView& map,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "hal/sim/random.h"
 #include "hal/sim/random_scene.h"
 #include "hal/sim/random_walk.h"
@@ -16,6 +18,9 @@ void add_surroundings(Place place, const WalkRoom& room, SceneSpec& scene, Rando
 /// scene's path comes near, or that hides the subject for long. They are boxes, balls, mugs, rings;
 /// the first is a mirror ball with the effect reflection, the next one of glass with refraction.
 void add_clutter(int count, SceneSpec& scene, Random& random);
+
+/// Upright objects turn about z; radians.
+Eigen::Quaterniond about_z(double angle);
 
 /// Radius of an upright cylinder about an object's origin that holds all of it; turns about z only.
 double footprint(const ObjectSpec& object);

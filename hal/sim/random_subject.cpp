@@ -12,10 +12,6 @@ using Eigen::Vector3d;
 
 constexpr double kTexel_m = 0.0006;  // about what a camera at arm's length resolves
 
-Eigen::Quaterniond about_z(double angle) {
-  return geometry::exp_so3(angle * Vector3d::UnitZ());
-}
-
 double any_angle(Random& random) {
   return random.uniform(-std::numbers::pi, std::numbers::pi);
 }
@@ -227,6 +223,10 @@ double add_thing(Place place, SceneSpec& scene, Random& random) {
 }
 
 }  // namespace
+
+Eigen::Quaterniond about_z(double angle) {
+  return geometry::exp_so3(angle * Vector3d::UnitZ());
+}
 
 double footprint(const ObjectSpec& object) {
   if (object.shape != Shape::Lathe) return 0.5 * object.size.head<2>().norm();

@@ -15,10 +15,6 @@ using Eigen::Vector3d;
 constexpr double kTexel_m = 0.0008;
 constexpr double kFloorUnderDesk_m = -0.75;
 
-Eigen::Quaterniond about_z(double angle) {
-  return geometry::exp_so3(angle * Vector3d::UnitZ());
-}
-
 /// An object with a texture of its own.
 ObjectSpec& add(SceneSpec& scene, Shape shape, const Vector3d& size, const Vector3d& at,
                 const TextureSpec& texture) {

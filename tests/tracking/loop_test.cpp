@@ -57,7 +57,8 @@ double error_of(const Map& map, const std::vector<geometry::Pose>& truth) {
 TEST(LoopDetector, FindsTheBeginningAgainWhateverHasDrifted) {
   const auto& orbit = drifted_orbit();
   LoopDetector detector(testing::small_camera(), options());
-  const auto loop = detector.find(orbit.map, kAround - 1, 3);
+  const CovisibilityGraph graph(orbit.map, kConnected);
+  const auto loop = detector.find(orbit.map, graph, kAround - 1, 3);
   ASSERT_TRUE(loop);
   EXPECT_LE(loop->then, 6);
   EXPECT_EQ(loop->ties.front().keyframe, kAround - 1);
@@ -75,7 +76,9 @@ TEST(LoopDetector, FindsTheBeginningAgainWhateverHasDrifted) {
 TEST(LoopDetector, HalfAnOrbitIsNoLoop) {
   const auto& orbit = drifted_orbit();
   LoopDetector detector(testing::small_camera(), options());
-  for (KeyframeId id = 20; id < 40; ++id) EXPECT_FALSE(detector.find(orbit.map, id, 1)) << id;
+  const CovisibilityGraph graph(orbit.map, kConnected);
+  for (KeyframeId id = 20; id < 40; ++id)
+    EXPECT_FALSE(detector.find(orbit.map, graph, id, 1)) << id;
 }
 
 // Nothing in the pictures tells its back from its front: the way between the two does.
@@ -83,7 +86,9 @@ TEST(LoopDetector, ACanDoesNotCloseOntoItsBack) {
   const testing::OrbitMap orbit(testing::small_camera(), testing::Can(2), 30, kStep,
                                 geometry::Vector7d::Zero());
   LoopDetector detector(testing::small_camera(), options());
-  for (KeyframeId id = 15; id < 30; ++id) EXPECT_FALSE(detector.find(orbit.map, id, 1)) << id;
+  const CovisibilityGraph graph(orbit.map, kConnected);
+  for (KeyframeId id = 15; id < 30; ++id)
+    EXPECT_FALSE(detector.find(orbit.map, graph, id, 1)) << id;
 }
 
 TEST(LoopDetector, WhatTrackingCannotHaveDriftedIsNotPlausible) {
@@ -106,10 +111,11 @@ TEST(LoopClosing, BothEndsOfADriftedOrbitMeet) {
   Map map = orbit.map;
   ASSERT_GT(error_of(map, orbit.truth), 0.03);
   LoopDetector detector(camera, options());
-  const auto loop = detector.find(map, kAround - 1, 3);
+  const CovisibilityGraph graph(map, kConnected);
+  const auto loop = detector.find(map, graph, kAround - 1, 3);
   ASSERT_TRUE(loop);
   const std::size_t points = map.points().size();
-  ASSERT_TRUE(close_loop(map, *loop));
+  ASSERT_TRUE(close_loop(map, graph, *loop));
   EXPECT_LT(error_of(map, orbit.truth), 0.01) << "before any adjustment";
   EXPECT_LT(map.points().size(), points) << "points known twice become one";
   EXPECT_NEAR(map.keyframe(kAround - 1).scale * orbit.drifted.back().scale, 1.0, 0.05);
@@ -121,10 +127,11 @@ TEST(LoopClosing, BothEndsOfADriftedOrbitMeet) {
 TEST(LoopClosing, AMapMeetsItselfOnlyAfterAWayAround) {
   const auto& orbit = drifted_orbit();
   Map map = orbit.map;
-  for (KeyframeId id = 1; id < kAround; ++id) EXPECT_FALSE(has_met_itself(map, id)) << id;
+  const CovisibilityGraph before(map, kConnected);
+  for (KeyframeId id = 1; id < kAround; ++id) EXPECT_FALSE(has_met_itself(map, before, id)) << id;
   const std::vector<PointId> first = map.keyframe(1).points;
   for (const PointId p : first) map.add_sighting(p, {kAround - 1, Eigen::Vector2d::Zero(), 0});
-  EXPECT_TRUE(has_met_itself(map, kAround - 1));
+  EXPECT_TRUE(has_met_itself(map, CovisibilityGraph(map, kConnected), kAround - 1));
 }
 
 TEST(LoopClosing, PointsAtOnePlaceBecomeOneAndOthersDoNot) {
