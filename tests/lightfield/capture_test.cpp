@@ -224,7 +224,7 @@ TEST(ExportCapture, RoundTripKeepsPosesAndLenses) {
 
 TEST(ExportCapture, RoundTripKeepsAFisheyeLens) {
   Capture capture;
-  capture.light_field.add(make_perspective(0, {}, small_fisheye_camera()));
+  capture.light_field.add(make_perspective(0, Eigen::Vector3d::Zero(), small_fisheye_camera()));
   const config::CameraProfile before = small_fisheye_camera()->profile();
   for (const ExportFormat format : {ExportFormat::Nerfstudio, ExportFormat::Colmap}) {
     const TemporaryFolder folder;

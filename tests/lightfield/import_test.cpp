@@ -20,7 +20,7 @@ class OneFrame {
  public:
   explicit OneFrame(const std::string& picture = "images/a.jpg") {
     fs::create_directories((folder_ / picture).parent_path());
-    const hal::Image image = *make_perspective(0, {}, small_camera()).color;
+    const hal::Image image = *make_perspective(0, Eigen::Vector3d::Zero(), small_camera()).color;
     if (picture.ends_with(".png")) {
       hal::write_png(folder_ / picture, image);
     } else {
