@@ -1,7 +1,6 @@
 #include "tracking/pyramid.h"
 
 #include <algorithm>
-#include <atomic>
 
 namespace lumibox::tracking {
 namespace {
@@ -39,10 +38,11 @@ std::shared_ptr<const Pyramid> PyramidPool::make(const hal::Image& gray, int lev
     pyramids_.push_back(std::make_shared<Pyramid>());
     free = pyramids_.end() - 1;
   }
-  // Whoever read it last, perhaps on another thread, is done before it is written to.
-  std::atomic_thread_fence(std::memory_order_acquire);
-  (*free)->assign(gray, levels);
-  return *free;
+  // Taken before it is written to: libstdc++ counts references with acquire and release, so whoever
+  // read it last, perhaps on another thread, is done.
+  const std::shared_ptr<Pyramid> taken = *free;
+  taken->assign(gray, levels);
+  return taken;
 }
 
 }  // namespace lumibox::tracking
