@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "geometry/camera.h"
@@ -33,7 +34,8 @@ struct BundleProblem {
 /// where one that grows linearly would let each pull for ever. Views should be fixed so that the
 /// gauge is. The scale of the world does not matter. An observation of a point that starts behind
 /// its view takes no part; one that ends there gets an infinite error. Returns false, with nothing
-/// changed, if the solver failed.
-bool adjust(const geometry::Camera& camera, BundleProblem& problem, int max_iterations);
+/// changed, if the solver failed. After each step `enough` may say that no more are wanted.
+bool adjust(const geometry::Camera& camera, BundleProblem& problem, int max_iterations,
+            const std::function<bool()>& enough = {});
 
 }  // namespace lumibox::tracking

@@ -84,6 +84,10 @@ void apply(Map& map, const MapProblem& problem) {
   for (std::size_t i = 0; i < problem.points.size(); ++i) {
     map.point(problem.points[i]).position = bundle.points[i];
   }
+}
+
+void remove_outliers(Map& map, const MapProblem& problem) {
+  const BundleProblem& bundle = problem.bundle;
   for (const auto& o : bundle.observations) {
     if (o.error_in_sigma < kOutlier) continue;
     map.remove_sighting(problem.points[static_cast<std::size_t>(o.point)],
@@ -94,13 +98,23 @@ void apply(Map& map, const MapProblem& problem) {
   }
 }
 
-void adjust_keyframes(const geometry::Camera& camera, Map& map, std::set<KeyframeId> free,
-                      int iterations) {
+/// False if it was interrupted.
+bool adjust_keyframes(const geometry::Camera& camera, Map& map, std::set<KeyframeId> free,
+                      int iterations, const std::function<bool()>& interrupted) {
   free.erase(0);  // the world's origin does not move
-  if (free.empty()) return;
+  if (free.empty()) return true;
   MapProblem problem = make_problem(camera, map, free);
-  if (adjust(camera, problem.bundle, iterations)) apply(map, problem);
+  bool complete = true;
+  const auto enough = [&] {
+    if (interrupted && interrupted()) complete = false;
+    return !complete;
+  };
+  if (adjust(camera, problem.bundle, iterations, enough)) {
+    apply(map, problem);
+    if (complete) remove_outliers(map, problem);
+  }
   map.update_depths();
+  return complete;
 }
 
 }  // namespace
@@ -111,15 +125,16 @@ void adjust_locally(const geometry::Camera& camera, const config::Tracking& opti
       covisible_keyframes(map, id, options.local_keyframes - 1);
   std::set<KeyframeId> free(neighbours.begin(), neighbours.end());
   free.insert(id);
-  adjust_keyframes(camera, map, free, options.local_iterations);
+  adjust_keyframes(camera, map, free, options.local_iterations, {});
 }
 
-void adjust_globally(const geometry::Camera& camera, const config::Tracking& options, Map& map) {
+bool adjust_globally(const geometry::Camera& camera, const config::Tracking& options, Map& map,
+                     const std::function<bool()>& interrupted) {
   std::set<KeyframeId> free;
   for (KeyframeId id = 0; id < static_cast<KeyframeId>(map.keyframes().size()); ++id) {
     free.insert(id);
   }
-  adjust_keyframes(camera, map, free, options.global_iterations);
+  return adjust_keyframes(camera, map, free, options.global_iterations, interrupted);
 }
 
 }  // namespace lumibox::tracking

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "config/config.h"
 #include "geometry/camera.h"
 #include "tracking/map.h"
@@ -12,7 +14,10 @@ namespace lumibox::tracking {
 void adjust_locally(const geometry::Camera& camera, const config::Tracking& options, Map& map,
                     KeyframeId id);
 
-/// The same over all keyframes but the first, which stays where it is.
-void adjust_globally(const geometry::Camera& camera, const config::Tracking& options, Map& map);
+/// The same over all keyframes but the first, which stays where it is. Asked after each step,
+/// `interrupted` may end it early: what has been gained is kept, no sighting is removed, and the
+/// result is false.
+bool adjust_globally(const geometry::Camera& camera, const config::Tracking& options, Map& map,
+                     const std::function<bool()>& interrupted = {});
 
 }  // namespace lumibox::tracking

@@ -5,6 +5,7 @@
 
 #include "config/log.h"
 #include "tracking/covisibility.h"
+#include "tracking/keyframe_culling.h"
 #include "tracking/loop_closing.h"
 #include "tracking/map_adjustment.h"
 #include "tracking/point_creation.h"
@@ -71,9 +72,21 @@ void Mapper::request(KeyframeRequest request) {
   changed_.notify_all();
 }
 
+void Mapper::rest() {
+  if (mapping_ == Mapping::Lockstep) {
+    attempt([this] { settle(); });
+    return;
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    resting_ = true;
+  }
+  changed_.notify_all();
+}
+
 bool Mapper::busy() const {
   const std::lock_guard lock(mutex_);
-  return working_ || !requests_.empty();
+  return integrating_ || !requests_.empty();
 }
 
 std::shared_ptr<const MapView> Mapper::view() const {
@@ -82,22 +95,27 @@ std::shared_ptr<const MapView> Mapper::view() const {
 }
 
 void Mapper::finish() {
-  if (mapping_ == Mapping::Threaded) {
+  {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return requests_.empty() && !working_; });
+    finishing_ = true;
+    changed_.wait(lock, [this] { return requests_.empty() && !integrating_ && !settling_; });
   }
-  if (!view()) return;
-  attempt([this] {
-    // The last keyframes may have come back to where others began, and none come to confirm it.
-    const auto newest = static_cast<KeyframeId>(map_.keyframes().size()) - 1;
-    for (KeyframeId id = newest; id > std::max(newest - kLastKeyframes, 0); --id) {
-      if (close_loop_at(id, kMinLastTies)) break;
-    }
-    // Twice: the second pass no longer has the outliers that the first removed.
-    adjust_globally(camera_, options_, map_);
-    adjust_globally(camera_, options_, map_);
-    publish();
-  });
+  if (view()) attempt([this] { adjust_finally(); });
+  const std::lock_guard lock(mutex_);
+  finishing_ = resting_ = false;
+}
+
+void Mapper::adjust_finally() {
+  // The last keyframes may have come back to where others began, and none come to confirm it.
+  const auto newest = static_cast<KeyframeId>(map_.keyframes().size()) - 1;
+  for (KeyframeId id = newest; id > std::max(newest - kLastKeyframes, 0); --id) {
+    if (close_loop_at(id, kMinLastTies)) break;
+  }
+  // Twice: the second pass no longer has the outliers that the first removed.
+  adjust_globally(camera_, options_, map_);
+  adjust_globally(camera_, options_, map_);
+  settled_ = true;
+  publish();
 }
 
 std::optional<std::string> Mapper::error() const {
@@ -108,15 +126,26 @@ std::optional<std::string> Mapper::error() const {
 void Mapper::run() {
   std::unique_lock lock(mutex_);
   while (true) {
-    changed_.wait(lock, [this] { return stopping_ || !requests_.empty(); });
+    changed_.wait(lock,
+                  [this] { return stopping_ || !requests_.empty() || (resting_ && !finishing_); });
     if (stopping_) return;
-    const KeyframeRequest request = std::move(requests_.front());
-    requests_.pop_front();
-    working_ = true;
-    lock.unlock();
-    attempt([&] { integrate(request); });
-    lock.lock();
-    working_ = false;
+    if (!requests_.empty()) {
+      const KeyframeRequest request = std::move(requests_.front());
+      requests_.pop_front();
+      integrating_ = true;
+      lock.unlock();
+      attempt([&] { integrate(request); });
+      lock.lock();
+      integrating_ = false;
+    } else {
+      resting_ = false;
+      settling_ = true;
+      lock.unlock();
+      attempt([this] { settle(); });
+      lock.lock();
+      settling_ = false;
+      if (!settled_ && !error_) resting_ = true;  // interrupted: goes on when it can
+    }
     changed_.notify_all();
   }
 }
@@ -147,7 +176,20 @@ void Mapper::integrate(const KeyframeRequest& request) {
   map_.update_depths();
   create_points(camera_, options_, map_, id);
   adjust_locally(camera_, options_, map_, id);
-  if (close_loop_at(id, kMinTies)) adjust_globally(camera_, options_, map_);
+  const bool closed = close_loop_at(id, kMinTies);
+  cull_keyframes(options_, map_, id);
+  settled_ = false;
+  publish();
+  if (closed) rest();
+}
+
+/// Adjusts the whole map, if it has changed, for as long as no request comes.
+void Mapper::settle() {
+  if (settled_) return;
+  settled_ = adjust_globally(camera_, options_, map_, [this] {
+    const std::lock_guard lock(mutex_);
+    return stopping_ || finishing_ || !requests_.empty();
+  });
   publish();
 }
 

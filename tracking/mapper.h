@@ -55,6 +55,10 @@ class Mapper {
   /// In lockstep the map has changed when this returns.
   void request(KeyframeRequest request);
 
+  /// Says that no keyframe is coming for a while: a map that has changed since is adjusted as a
+  /// whole, until one does come. In lockstep it is when this returns.
+  void rest();
+
   /// True while requests wait or are worked on.
   bool busy() const;
 
@@ -73,6 +77,8 @@ class Mapper {
   void attempt(const std::function<void()>& work);
   void integrate(const KeyframeRequest& request);
   bool close_loop_at(KeyframeId id, std::size_t min_ties);
+  void settle();
+  void adjust_finally();
   void weigh(const std::vector<PointEvidence>& evidence);
   void publish();
 
@@ -84,12 +90,16 @@ class Mapper {
   LoopDetector loops_;
   int loops_closed_ = 0;
   KeyframeId last_loop_ = 0;  ///< keyframe at which one closed
+  bool settled_ = true;       ///< adjusted as a whole since the last keyframe
   std::uint64_t revision_ = 0;
 
   mutable std::mutex mutex_;  // guards what follows
   std::condition_variable changed_;
   std::deque<KeyframeRequest> requests_;
-  bool working_ = false;
+  bool integrating_ = false;
+  bool settling_ = false;
+  bool resting_ = false;  ///< settle() is to be called once no request waits
+  bool finishing_ = false;
   bool stopping_ = false;
   std::shared_ptr<const MapView> view_;
   std::optional<std::string> error_;

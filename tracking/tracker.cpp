@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kMinContrast = 6.0;  // grey levels; a dark or covered lens shows less
 constexpr int kTurnTries = 15;        // frames from one try to relocalise to the next
+constexpr int kRestFrames = 30;       // without a keyframe, until the mapper does what can wait
 
 }  // namespace
 
@@ -60,17 +61,7 @@ class Tracker::Impl {
       jumped_ = false;
       const Localisation* found = lost_ ? relocalise(*frame) : localise_from_motion(*frame);
       judge(found, frame, result);
-      // A pose that is not certain enough to record with may well be one from which the map grows
-      // until it is.
-      const bool shown = found && last_shown_ == frame;
-      if (auto request = chooser_.complete(motion_); request && shown) {
-        mapper_.request(std::move(*request));
-      }
-      if (shown && !mapper_.busy()) {
-        auto request =
-            chooser_.consider(*map_, {anchor_, anchor_from_camera_}, frame, *found, motion_);
-        if (request) mapper_.request(std::move(*request));
-      }
+      extend_map(frame, found);
     }
     return result;
   }
@@ -240,6 +231,22 @@ class Tracker::Impl {
                 result);
   }
 
+  /// Asks for a keyframe where the map needs one. A pose that is not certain enough to record with
+  /// may well be one from which the map grows until it is.
+  void extend_map(const std::shared_ptr<const Pyramid>& frame, const Localisation* found) {
+    const bool shown = found && last_shown_ == frame;
+    const auto ask = [&](std::optional<KeyframeRequest> request) {
+      if (!request || !shown) return;
+      mapper_.request(std::move(*request));
+      frames_at_rest_ = 0;
+    };
+    ask(chooser_.complete(motion_));
+    if (shown && !mapper_.busy()) {
+      ask(chooser_.consider(*map_, {anchor_, anchor_from_camera_}, frame, *found, motion_));
+    }
+    if (++frames_at_rest_ == kRestFrames) mapper_.rest();
+  }
+
   /// Where the map no longer shows, a turn on the spot may explain the picture: the pose then is
   /// held, turned, and not good enough to record with. False if it does not.
   bool follow_turn(const std::shared_ptr<const Pyramid>& frame, TrackedFrame& result) {
@@ -322,6 +329,7 @@ class Tracker::Impl {
   geometry::Pose camera_from_world_;           // of the last frame with a pose
   geometry::FramePose predicted_;              // of the present frame
   std::shared_ptr<const Pyramid> last_shown_;  // the last frame, if it showed the map
+  int frames_at_rest_ = 0;                     // since the last keyframe
   int frames_turned_ = 0;                      // since the map last showed
   KeyframeId anchor_ = -1;
   geometry::Pose anchor_from_camera_;

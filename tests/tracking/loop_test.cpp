@@ -124,6 +124,26 @@ TEST(LoopClosing, BothEndsOfADriftedOrbitMeet) {
   EXPECT_LT(error_of(map, orbit.truth), 0.0005);
 }
 
+TEST(AdjustGlobally, WhatIsInterruptedIsGainedAndLosesNoSighting) {
+  const auto& orbit = drifted_orbit();
+  Map map = orbit.map;
+  for (auto& keyframe : map.keyframes()) keyframe.world_from_camera.translation.x() += 0.02;
+  const auto sightings = [](const Map& m) {
+    std::size_t sum = 0;
+    for (const auto& [id, point] : m.points()) sum += point.sightings.size();
+    return sum;
+  };
+  Map whole = map;
+  int asked = 0;
+  EXPECT_FALSE(
+      adjust_globally(testing::small_camera(), options(), map, [&] { return ++asked == 2; }));
+  EXPECT_EQ(asked, 2) << "after each step";
+  EXPECT_EQ(sightings(map), sightings(orbit.map));
+  EXPECT_NE(map.keyframe(1).world_from_camera.translation,
+            whole.keyframe(1).world_from_camera.translation);
+  EXPECT_TRUE(adjust_globally(testing::small_camera(), options(), whole, [] { return false; }));
+}
+
 TEST(LoopClosing, AMapMeetsItselfOnlyAfterAWayAround) {
   const auto& orbit = drifted_orbit();
   Map map = orbit.map;

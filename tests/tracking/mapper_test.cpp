@@ -54,5 +54,55 @@ TEST(Mapper, AnExceptionEndsMappingAndLeavesTheMapThatWasThere) {
   }
 }
 
+/// The second view again, moved a little.
+KeyframeRequest third_keyframe(const MapView& map) {
+  const geometry::Pose moved(Eigen::Quaterniond::Identity(), {0.05, 0.0, 0.0});
+  const geometry::Pose world_from_camera = map.keyframes[1].world_from_camera * moved;
+  const geometry::Camera camera = testing::small_camera();
+  KeyframeRequest request{1, moved, geometry::Vector6d::Zero(), map.keyframes[1].pyramid, {}, {}};
+  for (const MapView::Point& p : map.points) {
+    const auto pixel = camera.project(world_from_camera.inverse() * p.position);
+    if (pixel) request.sightings.emplace_back(p.id, Sighting{-1, *pixel, 0});
+  }
+  return request;
+}
+
+TEST(Mapper, RestAdjustsAMapThatHasChangedOnce) {
+  config::Tracking options;
+  options.pyramid_levels = 3;
+  Mapper mapper(testing::small_camera(), options, Mapping::Lockstep);
+  mapper.rest();
+  EXPECT_FALSE(mapper.error()) << "there is no map yet";
+  mapper.start(two_views());
+  const std::uint64_t started = mapper.view()->revision;
+  mapper.rest();
+  EXPECT_EQ(mapper.view()->revision, started) << "the first map is adjusted already";
+  mapper.request(third_keyframe(*mapper.view()));
+  const std::uint64_t added = mapper.view()->revision;
+  mapper.rest();
+  EXPECT_EQ(mapper.view()->revision, added + 1);
+  mapper.rest();
+  EXPECT_EQ(mapper.view()->revision, added + 1);
+}
+
+TEST(Mapper, RequestsWhileItAdjustsAtRestAreAllAnswered) {
+  config::Tracking options;
+  options.pyramid_levels = 3;
+  Mapper mapper(testing::small_camera(), options, Mapping::Threaded);
+  mapper.start(two_views());
+  const KeyframeRequest request = third_keyframe(*mapper.view());
+  for (int i = 0; i < 5; ++i) {
+    mapper.request(request);
+    mapper.rest();
+  }
+  mapper.finish();
+  EXPECT_FALSE(mapper.error());
+  EXPECT_EQ(mapper.view()->keyframes.size(), 7U);
+  mapper.request(request);
+  mapper.rest();
+  mapper.finish();
+  EXPECT_EQ(mapper.view()->keyframes.size(), 8U);
+}
+
 }  // namespace
 }  // namespace lumibox::tracking
