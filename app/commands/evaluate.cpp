@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/commands/commands.h"
+#include "app/commands/recorded.h"
 #include "app/commands/support.h"
 #include "app/painter.h"
 #include "app/progress.h"

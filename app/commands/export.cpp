@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "app/commands/commands.h"
+#include "app/commands/recorded.h"
 #include "app/commands/support.h"
 #include "hal/new_folder.h"
 #include "lightfield/capture.h"
@@ -9,6 +10,7 @@ namespace lumibox::app {
 void export_data_set(const ExportOptions& options) {
   const config::Config config = load_config(options.sources);
   hal::require_new_folder(options.out);
+  refuse_recorded(options.out);
   const lightfield::Capture capture = lightfield::load_capture(options.capture);
   const auto format = options.format == "colmap" ? lightfield::ExportFormat::Colmap
                                                  : lightfield::ExportFormat::Nerfstudio;

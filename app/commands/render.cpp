@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/commands/commands.h"
+#include "app/commands/recorded.h"
 #include "app/commands/support.h"
 #include "app/painter.h"
 #include "app/progress.h"

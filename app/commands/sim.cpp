@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "app/commands/commands.h"
+#include "app/commands/recorded.h"
 #include "app/commands/support.h"
 #include "app/progress.h"
 #include "hal/new_folder.h"
@@ -11,6 +12,7 @@ namespace lumibox::app {
 void simulate(const SimOptions& options) {
   load_config(options.sources);
   hal::require_new_folder(options.out);
+  refuse_recorded(options.out);
   const auto scene = options.scene ? hal::load_scene(*options.scene)
                                    : hal::make_scene(hal::sim::random_scene(*options.random_scene));
   make_parent_folder(options.out);

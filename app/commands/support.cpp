@@ -42,19 +42,6 @@ void require_distinct(std::span<const std::filesystem::path> files) {
   }
 }
 
-void refuse_recorded(const std::filesystem::path& result, const std::filesystem::path& capture) {
-  std::error_code error;
-  const std::filesystem::path target = std::filesystem::weakly_canonical(result, error);
-  const std::filesystem::path folder = std::filesystem::weakly_canonical(capture, error);
-  for (const char* recorded :
-       {lightfield::kTransformsFile, lightfield::kPointsFile, lightfield::kImagesFolder}) {
-    if (target == folder / recorded) {
-      throw config::InputError(result,
-                               "belongs to the capture; nothing recorded is ever overwritten");
-    }
-  }
-}
-
 const lightfield::Sphere& subject_of(const lightfield::Capture& capture) {
   if (!capture.light_field.subject()) {
     throw config::InputError(capture.folder / lightfield::kTransformsFile,

@@ -27,9 +27,6 @@ void write_json(const std::filesystem::path& file, const nlohmann::json& json);
 /// Makes the folder that a file is to be written into.
 void make_parent_folder(const std::filesystem::path& file);
 
-/// Throws config::InputError if `result`, a file or folder to be written, is a part of the capture.
-void refuse_recorded(const std::filesystem::path& result, const std::filesystem::path& capture);
-
 /// The capture's subject; throws config::InputError if it has none.
 const lightfield::Sphere& subject_of(const lightfield::Capture& capture);
 

@@ -8,6 +8,7 @@
 #include "app/attempts.h"
 #include "app/auto_capture.h"
 #include "app/commands/commands.h"
+#include "app/commands/recorded.h"
 #include "app/commands/support.h"
 #include "app/progress.h"
 #include "app/saved_capture.h"
@@ -123,12 +124,30 @@ std::optional<SavedCapture> load_saved(const TrackOptions& options, const geomet
   return saved;
 }
 
-/// An hour of tracking must not end at a mistyped folder.
-void try_outputs(const TrackOptions& options) {
+/// The files that results go into.
+std::vector<std::filesystem::path> results_of(const TrackOptions& options) {
   std::vector<std::filesystem::path> files = {options.out};
   for (const auto& file : {options.live, options.json, options.plot}) {
     if (file) files.push_back(*file);
   }
+  return files;
+}
+
+/// Nothing that was recorded, or is about to be, may lie where a result goes.
+void refuse_recorded_places(const TrackOptions& options, const hal::Sequence& sequence) {
+  for (const auto& result : results_of(options)) {
+    for (const auto& capture : {options.capture, options.resume}) {
+      if (capture) refuse_inside(result, *capture);
+    }
+    refuse_recorded(result);
+    refuse_recorded(result, sequence);
+  }
+  if (options.capture) refuse_recorded(*options.capture);
+}
+
+/// An hour of tracking must not end at a mistyped folder.
+void try_outputs(const TrackOptions& options) {
+  const std::vector<std::filesystem::path> files = results_of(options);
   require_distinct(files);
   if (options.capture && !goes_on_with_capture(options)) {
     lightfield::make_new_folder({}, *options.capture);
@@ -166,6 +185,7 @@ void track(const TrackOptions& options) {
     throw config::InputError("--subject: frame " + std::to_string(options.subject->frame) +
                              "; the recording has " + std::to_string(frames) + ", from 0");
   }
+  refuse_recorded_places(options, sequence);
   auto saved = load_saved(options, model, config.tracking.pyramid_levels);
   try_outputs(options);
   hal::SystemClock clock;

@@ -243,17 +243,73 @@ TEST(CommandLine, CaptureWithoutASubjectIsToldAsSuch) {
 TEST(CommandLine, ResultsDoNotOverwriteTheCapture) {
   const Recording recording;
   const std::string capture = small_capture(recording);
+  recording.dir().write("capture/map/map.json", "the map");
+  std::filesystem::create_directory_symlink(capture + "/map", recording.folder() / "link");
+  std::filesystem::create_symlink(capture + "/map/new.json", recording.folder() / "dangling");
   const auto views = recording.dir().write("views.tum", "0 0 0 0 0 0 0 1\n");
-  const std::string before = read_text(capture + "/images/000000.png");
-  EXPECT_COMPLAINT(lumibox("render " + capture + "/ --views " + views.string() + " --out " +
-                           capture + "/images"),
-                   HasSubstr(capture + "/images: belongs to the capture"));
-  EXPECT_COMPLAINT(lumibox("evaluate " + capture + " --json " + capture + "/transforms.json"),
-                   HasSubstr("belongs to the capture"));
+  const auto before = testing::files_in(capture);
+  const std::string folder = recording.folder().string();
+  for (const std::string out : {"capture/images", "capture/images/sub", "capture/map", "link",
+                                "capture/images/../map/deep/down"}) {
+    EXPECT_COMPLAINT(lumibox("render " + capture + "/ --views " + views.string() + " --out " +
+                             folder + "/" + out),
+                     HasSubstr(folder + "/" + out + ": belongs to the capture"));
+  }
+  for (const std::string json : {"capture/transforms.json", "capture/images/000000.png",
+                                 "capture/map/map.json", "capture/points.ply", "dangling"}) {
+    EXPECT_COMPLAINT(lumibox("evaluate " + capture + " --json " + folder + "/" + json),
+                     HasSubstr(folder + "/" + json + ": belongs to the capture"));
+  }
+  for (const std::string pictures : {"capture/../capture/images/", "capture/map"}) {
+    EXPECT_COMPLAINT(lumibox("evaluate " + capture + " --pictures " + folder + "/" + pictures),
+                     HasSubstr("belongs to the capture"));
+  }
   EXPECT_COMPLAINT(
-      lumibox("evaluate " + capture + " --pictures " + capture + "/../capture/images/"),
+      lumibox("export " + capture + " --format colmap --out " + capture + "/images/colmap"),
       HasSubstr("belongs to the capture"));
-  EXPECT_EQ(read_text(capture + "/images/000000.png"), before);
+  EXPECT_EQ(testing::files_in(capture), before);
+  EXPECT_EQ(lumibox("evaluate " + capture + " --json " + capture + "/quality.json").status, 0)
+      << "a new name beside what is recorded is free";
+}
+
+TEST(CommandLine, ResultsOfTrackingDoNotOverwriteCaptures) {
+  const Recording recording;
+  const std::string capture = small_capture(recording);
+  const auto before = testing::files_in(recording.folder());
+  const std::string folder = recording.folder().string() + "/";
+  const std::string track = "track " + folder + " --out ";
+  EXPECT_COMPLAINT(lumibox(track + capture + "/transforms.json"),
+                   HasSubstr("transforms.json: belongs to the capture in " + capture));
+  EXPECT_COMPLAINT(lumibox(track + folder + "t.tum --plot " + capture + "/images/000000.png"),
+                   HasSubstr("000000.png: belongs to the capture in " + capture));
+  EXPECT_COMPLAINT(lumibox(track + folder + "new/transforms.json --capture " + folder + "new"),
+                   HasSubstr("lies in the capture in " + folder + "new"));
+  EXPECT_COMPLAINT(lumibox(track + folder + "new --capture " + folder + "new"),
+                   HasSubstr("lies in the capture in " + folder + "new"));
+  EXPECT_COMPLAINT(
+      lumibox(track + folder + "t.tum --live " + capture + "/t.tum --resume " + capture),
+      HasSubstr("lies in the capture in " + capture));
+  EXPECT_COMPLAINT(lumibox(track + folder + "t.tum --capture " + capture + "/images/new"),
+                   HasSubstr("belongs to the capture in " + capture));
+  EXPECT_EQ(testing::files_in(recording.folder()), before);
+}
+
+TEST(CommandLine, ResultsOfTrackingDoNotOverwriteTheRecording) {
+  const Recording recording;
+  const std::string folder = recording.folder().string() + "/";
+  std::filesystem::create_hard_link(folder + "rgb/000002.png", folder + "same.png");
+  std::filesystem::create_symlink("rgb.txt", folder + "link");
+  std::filesystem::remove(folder + "groundtruth.txt");
+  const auto before = testing::files_in(recording.folder());
+  const std::string track = "track " + folder + " --out ";
+  for (const std::string result : {"rgb.txt", "link", "calib.txt", "subject.txt", "rgb/000003.png",
+                                   "same.png", "groundtruth.txt", "rgb.mp4"}) {
+    EXPECT_COMPLAINT(lumibox(track + folder + result),
+                     HasSubstr(folder + result + ": belongs to the recording in " + folder));
+    EXPECT_COMPLAINT(lumibox(track + folder + "t.tum --json " + folder + result),
+                     HasSubstr(folder + result + ": belongs to the recording in " + folder));
+  }
+  EXPECT_EQ(testing::files_in(recording.folder()), before);
 }
 
 // The libraries that read videos have words of their own for what is wrong.

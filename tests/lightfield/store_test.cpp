@@ -9,11 +9,13 @@
 
 #include "hal/image_io.h"
 #include "lightfield/fixtures.h"
+#include "support/source_file.h"
 
 namespace lumibox::lightfield {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::files_in;
 using ::testing::HasSubstr;
 
 const Sphere kSphere{Eigen::Vector3d(0.1, -0.2, 3.0), 0.7};
@@ -36,16 +38,6 @@ void act_out(Store& store) {
   store.set_points({{4.0, 5.0, 6.0}});
   store.add(taken[4]);
   store.set_pose(4, taken[0].world_from_camera);
-}
-
-std::map<std::string, std::string> files_in(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) {
-      files[fs::relative(entry.path(), folder).string()] = read_text(entry.path());
-    }
-  }
-  return files;
 }
 
 TEST(Store, EmptyCaptureIsLoadable) {
