@@ -5,6 +5,7 @@
 #include <charconv>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "config/error.h"
 #include "config/log.h"
@@ -60,13 +61,21 @@ std::optional<SavedCapture> find_saved_capture(const fs::path& captures,
   if (last == 0) {
     return std::nullopt;
   }
+  const fs::path folder = capture_folder(captures, last);
   try {
-    SavedCapture saved = load_saved_capture(capture_folder(captures, last), camera, levels);
+    lightfield::CaptureLock lock(folder);
+    SavedCapture saved = load_saved_capture(folder, camera, levels);
+    saved.lock = std::move(lock);
     const auto& light_field = saved.capture.light_field;
     if (light_field.perspectives().empty() || !light_field.subject()) {
       return std::nullopt;
     }
+    if (!saved.problem.empty()) {
+      config::log_warning(saved.problem);
+    }
     return saved;
+  } catch (const lightfield::CaptureInUse&) {
+    throw;
   } catch (const config::InputError& error) {
     config::log_warning(error.what());
     return std::nullopt;

@@ -7,6 +7,7 @@
 
 #include "geometry/camera.h"
 #include "lightfield/capture.h"
+#include "lightfield/capture_lock.h"
 #include "tracking/map_view.h"
 
 namespace lumibox::app {
@@ -15,6 +16,7 @@ namespace lumibox::app {
 struct SavedCapture {
   lightfield::Capture capture;
   std::shared_ptr<const tracking::MapView> map;  ///< kept with it; null if there is a problem
+  std::optional<lightfield::CaptureLock> lock;   ///< held if it is to be gone on with
   std::string problem;                           ///< why it cannot be gone on with; empty: it can
 
   std::string name() const { return capture.folder.filename().string(); }
@@ -26,8 +28,9 @@ struct SavedCapture {
 SavedCapture load_saved_capture(const std::filesystem::path& folder, const geometry::Camera& camera,
                                 int levels);
 
-/// The last capture in `captures`; none if there is none with anything in it. One that cannot be
-/// loaded is said in the log and left alone.
+/// The last capture in `captures`, with its lock; none if there is none with anything in it. One
+/// that cannot be loaded is said in the log and left alone; so is why one cannot be gone on with.
+/// Throws lightfield::CaptureInUse if another process records into it.
 std::optional<SavedCapture> find_saved_capture(const std::filesystem::path& captures,
                                                const geometry::Camera& camera, int levels);
 

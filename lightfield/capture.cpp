@@ -1,7 +1,7 @@
 #include "lightfield/capture.h"
 
 #include "config/error.h"
-#include "lightfield/durable_files.h"
+#include "lightfield/capture_lock.h"
 #include "lightfield/picture_copy.h"
 #include "lightfield/picture_path.h"
 #include "lightfield/points_file.h"
@@ -30,7 +30,7 @@ Capture load_capture(const fs::path& folder) {
 
 void save_capture(const Capture& capture, const fs::path& folder, int jpeg_quality) {
   const DurableFiles files;
-  make_new_folder(files, folder);
+  const CaptureLock lock = make_capture_folder(files, folder);
   const std::vector<Perspective> perspectives = copy_pictures(capture, folder, jpeg_quality, files);
   if (!capture.points.empty()) files.write(folder / kPointsFile, encode_ply(capture.points));
   files.write(

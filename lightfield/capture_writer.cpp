@@ -20,8 +20,8 @@ CaptureWriter::CaptureWriter(std::filesystem::path folder, int jpeg_quality, Dur
     : folder_(std::move(folder)),
       jpeg_quality_(jpeg_quality),
       files_(std::move(files)),
+      lock_(make_capture_folder(files_, folder_)),
       map_(folder_, 0) {
-  make_new_folder(files_, folder_);
   changed_ = true;
   commit();
   files_.make_folder(folder_ / kImagesFolder);
@@ -32,6 +32,7 @@ CaptureWriter::CaptureWriter(const Capture& capture, std::size_t keyframes, int 
     : folder_(capture.folder),
       jpeg_quality_(jpeg_quality),
       files_(std::move(files)),
+      lock_(folder_),
       map_(folder_, keyframes),
       header_{capture.light_field.subject(), capture.threshold, !capture.points.empty()},
       changed_(true) {
@@ -43,10 +44,10 @@ CaptureWriter::CaptureWriter(const Capture& capture, std::size_t keyframes, int 
   pictures_ = named_on_disk_;
 }
 
-void CaptureWriter::put(const Perspective& perspective) {
+void CaptureWriter::put(const Perspective& perspective, std::string file) {
   Perspective named = perspective;
   named.color.reset();
-  named.file = picture_file(perspective.id);
+  named.file = std::move(file);
   named_[perspective.id] = std::move(named);
   changed_ = true;
 }
@@ -57,7 +58,7 @@ void CaptureWriter::add(const Perspective& perspective) {
   const std::string file = picture_file(perspective.id);
   files_.write(folder_ / file, hal::encode_jpeg(*perspective.color, jpeg_quality_));
   pictures_.insert(file);
-  put(perspective);
+  put(perspective, file);
 }
 
 void CaptureWriter::remove(int id) {
@@ -65,7 +66,10 @@ void CaptureWriter::remove(int id) {
 }
 
 void CaptureWriter::restore(const Perspective& perspective) {
-  pictures_.contains(picture_file(perspective.id)) ? put(perspective) : add(perspective);
+  // One that was here before this recording keeps its file: the original, maybe a PNG.
+  const std::string file =
+      perspective.file.empty() ? picture_file(perspective.id) : perspective.file;
+  pictures_.contains(file) ? put(perspective, file) : add(perspective);
 }
 
 void CaptureWriter::set_subject(const Sphere& sphere) {
@@ -134,6 +138,10 @@ void CaptureWriter::remove_unnamed_pictures() {
   for (const std::string& picture : pictures_) {
     if (!named_on_disk_.contains(picture)) files_.remove(folder_ / picture);
   }
+}
+
+void CaptureWriter::unlock() {
+  lock_.reset();
 }
 
 }  // namespace lumibox::lightfield

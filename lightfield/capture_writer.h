@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lightfield/capture.h"
+#include "lightfield/capture_lock.h"
 #include "lightfield/durable_files.h"
 #include "lightfield/map_files.h"
 #include "lightfield/perspective.h"
@@ -17,7 +18,7 @@ namespace lumibox::lightfield {
 
 /// Writes a capture folder as it is recorded, in the calling thread: pictures at once,
 /// transforms.json by commit(). All functions throw config::InputError; the folder then holds the
-/// capture as of the last successful commit.
+/// capture as of the last successful commit. No other process can write it meanwhile (CaptureLock).
 class CaptureWriter {
  public:
   /// Makes the folder with an empty capture in it.
@@ -55,14 +56,18 @@ class CaptureWriter {
   /// Removes the pictures that the transforms.json on disk does not name.
   void remove_unnamed_pictures();
 
+  /// Lets others write the folder: nothing more will be written here.
+  void unlock();
+
   const std::filesystem::path& folder() const { return folder_; }
 
  private:
-  void put(const Perspective& perspective);
+  void put(const Perspective& perspective, std::string file);
 
   std::filesystem::path folder_;
   int jpeg_quality_;
   DurableFiles files_;
+  std::optional<CaptureLock> lock_;
   MapWriter map_;
   std::map<int, Perspective> named_;  ///< by id, without their pictures
   TransformsHeader header_;

@@ -54,6 +54,7 @@ class Store::Impl {
     post([](CaptureWriter& writer) {
       writer.commit_moves();
       writer.remove_unnamed_pictures();
+      writer.unlock();
     });
     {
       const std::lock_guard lock(mutex_);

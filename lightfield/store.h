@@ -22,17 +22,19 @@ enum class Writing {
 /// A capture on disk, written as it is recorded. At every instant the folder holds a
 /// transforms.json that is a valid nerfstudio data set: pictures are written and synced before a
 /// transforms.json that names them; that is written aside, synced, renamed, and its folder synced.
-/// Both ways of writing leave the same bytes.
+/// Both ways of writing leave the same bytes. Until all that end() asked for is done no other
+/// process can write the folder.
 class Store {
  public:
   /// Creates `folder`, or opens it if empty. Refuses (config::InputError) a folder that already
-  /// holds something: nothing recorded is ever overwritten.
+  /// holds something, or that another process has: nothing recorded is ever overwritten.
   Store(const std::filesystem::path& folder, int jpeg_quality, Writing writing,
         DurableFiles files = {});
 
   /// Goes on with a capture that was loaded, in capture.folder, and with the first `keyframes`
   /// keyframes of the map there (0 if the map there is not gone on with). Nothing is written before
-  /// something changes.
+  /// something changes. Whoever loads it takes the CaptureLock first. Throws config::InputError if
+  /// another process has the folder.
   Store(const Capture& capture, std::size_t keyframes, int jpeg_quality, Writing writing,
         DurableFiles files = {});
 

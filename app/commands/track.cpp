@@ -23,7 +23,7 @@
 #include "config/log.h"
 #include "hal/replay/replay_camera.h"
 #include "hal/system_clock.h"
-#include "lightfield/durable_files.h"
+#include "lightfield/capture_lock.h"
 
 namespace lumibox::app {
 namespace {
@@ -110,10 +110,15 @@ std::optional<SavedCapture> load_saved(const TrackOptions& options, const geomet
   if (!options.resume) {
     return std::nullopt;
   }
+  std::optional<lightfield::CaptureLock> lock;
+  if (goes_on_with_capture(options)) {
+    lock.emplace(*options.resume);
+  }
   SavedCapture saved = load_saved_capture(*options.resume, camera, levels);
   if (!saved.problem.empty()) {
     throw config::InputError("--resume: " + saved.problem);
   }
+  saved.lock = std::move(lock);
   if (goes_on_with_capture(options)) {
     subject_of(saved.capture);  // or the gate would have nothing to go by
     if (options.subject) {
@@ -145,14 +150,16 @@ void refuse_recorded_places(const TrackOptions& options, const hal::Sequence& se
   if (options.capture) refuse_recorded(*options.capture);
 }
 
-/// An hour of tracking must not end at a mistyped folder.
-void try_outputs(const TrackOptions& options) {
+/// An hour of tracking must not end at a mistyped folder. The lock of a new capture's.
+std::optional<lightfield::CaptureLock> try_outputs(const TrackOptions& options) {
   const std::vector<std::filesystem::path> files = results_of(options);
   require_distinct(files);
+  std::optional<lightfield::CaptureLock> lock;
   if (options.capture && !goes_on_with_capture(options)) {
-    lightfield::make_new_folder({}, *options.capture);
+    lock = lightfield::make_capture_folder({}, *options.capture);
   }
   for (const auto& file : files) require_writable(file);
+  return lock;
 }
 
 /// Brings the capture to disk and says what it came to.
@@ -187,7 +194,7 @@ void track(const TrackOptions& options) {
   }
   refuse_recorded_places(options, sequence);
   auto saved = load_saved(options, model, config.tracking.pyramid_levels);
-  try_outputs(options);
+  const auto lock = try_outputs(options);
   hal::SystemClock clock;
   hal::ReplayCamera camera(sequence, clock,
                            options.realtime ? hal::Pacing::Recorded : hal::Pacing::Lockstep);

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "hal/image_io.h"
+#include "support/other_process.h"
 #include "support/recording.h"
 #include "support/source_file.h"
 #include "support/temp_dir.h"
@@ -215,6 +216,23 @@ TEST(CommandLine, GoingOnNeedsTheMapOfACapture) {
   EXPECT_COMPLAINT(lumibox(track + capture + " --capture " + capture),
                    HasSubstr("map.json: version is 9, expected"));
   EXPECT_EQ(lumibox("evaluate " + capture).status, 0) << "it can be looked at all the same";
+}
+
+TEST(CommandLine, ACaptureThatAnotherProcessRecordsToIsLeftAlone) {
+  const Recording recording;
+  const std::string capture = small_capture(recording);
+  std::filesystem::create_directory(capture + "_new");
+  const testing::FolderOfAnother other(capture);
+  const testing::FolderOfAnother other_new(capture + "_new");
+  const auto before = testing::files_in(capture);
+  const std::string track =
+      "track " + recording.folder().string() + " --out " + capture + ".tum --capture ";
+  EXPECT_COMPLAINT(lumibox(track + capture + " --resume " + capture),
+                   HasSubstr(capture + ": is being recorded to by another process"));
+  EXPECT_COMPLAINT(lumibox(track + capture + "_new"),
+                   HasSubstr(capture + "_new: is being recorded to by another process"));
+  EXPECT_EQ(testing::files_in(capture), before);
+  EXPECT_EQ(lumibox("evaluate " + capture).status, 0) << "it can be looked at meanwhile";
 }
 
 TEST(CommandLine, ViewsWithoutPosesAreRefused) {

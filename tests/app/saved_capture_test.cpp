@@ -5,11 +5,13 @@
 
 #include "app/moments.h"
 #include "app/recorder.h"
+#include "support/other_process.h"
 #include "support/temp_dir.h"
 
 namespace lumibox::app {
 namespace {
 
+using ::testing::AllOf;
 using testing::around_subject;
 using ::testing::HasSubstr;
 using testing::TempDir;
@@ -64,6 +66,38 @@ TEST(SavedCapture, AMapThatIsMissingOrDamagedIsAProblemAndThePerspectivesAreTher
   dir.write("capture-0001/map/map.json", "not a map");
   EXPECT_THAT(find(dir.path())->problem, HasSubstr("map/map.json:1: not valid JSON"));
   EXPECT_EQ(find(dir.path())->map, nullptr);
+}
+
+TEST(SavedCapture, WhyItCannotBeGoneOnWithIsInTheLog) {
+  const TempDir dir;
+  record(dir.path(), true);
+  dir.write("capture-0001/map/map.json", "not a map");
+  ::testing::internal::CaptureStdout();
+  EXPECT_TRUE(find(dir.path()));
+  EXPECT_THAT(::testing::internal::GetCapturedStdout(),
+              AllOf(HasSubstr("warning"), HasSubstr("map/map.json:1: not valid JSON")));
+}
+
+TEST(SavedCapture, OneThatAnotherProcessRecordsToIsNotTaken) {
+  const TempDir dir;
+  const auto folder = record(dir.path(), true);
+  const testing::FolderOfAnother other(folder);
+  EXPECT_THROW(find(dir.path()), lightfield::CaptureInUse);
+}
+
+TEST(SavedCapture, NoOtherProcessCanRecordToOneThatIsFound) {
+  const TempDir dir;
+  const auto folder = record(dir.path(), true);
+  auto saved = find(dir.path());
+  EXPECT_FALSE(testing::FolderOfAnother(folder).has_it());
+  Recorder recorder(testing::small_camera(), config::Capture{}, lightfield::Writing::Inline);
+  const testing::World world;
+  const MapNow map = world.map();
+  recorder.resume(std::move(saved->capture), &map);
+  saved.reset();
+  EXPECT_FALSE(testing::FolderOfAnother(folder).has_it()) << "the recorder has it now";
+  recorder.close(map);
+  EXPECT_TRUE(testing::FolderOfAnother(folder).has_it());
 }
 
 TEST(SavedCapture, AMapOfAnotherCameraIsAProblem) {

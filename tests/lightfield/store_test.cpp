@@ -9,6 +9,7 @@
 
 #include "hal/image_io.h"
 #include "lightfield/fixtures.h"
+#include "lightfield/transforms.h"
 #include "support/source_file.h"
 
 namespace lumibox::lightfield {
@@ -199,6 +200,35 @@ TEST(Store, RefusesAFolderThatHoldsSomething) {
   EXPECT_EQ(read_text(folder / "full/note.txt"), "mine");
   fs::create_directory(folder / "empty");
   EXPECT_EQ(open("empty"), "");
+}
+
+/// The picture of a perspective as another program may have left it.
+std::string make_it_a_png(const fs::path& capture, int id) {
+  std::string text = read_text(capture / "transforms.json");
+  const std::string jpeg = picture_file(id);
+  const std::string png = picture_file(id, ".png");
+  text.replace(text.find(jpeg), jpeg.size(), png);
+  write_text(capture / "transforms.json", text);
+  hal::write_png(capture / png, hal::read_image(capture / jpeg));
+  fs::remove(capture / jpeg);
+  return png;
+}
+
+TEST(Store, UndoBringsBackTheOriginalPicture) {
+  const TemporaryFolder folder;
+  save_capture(make_capture(3), folder / "c", 90);
+  const std::string png = make_it_a_png(folder / "c", 1);
+  const auto before = files_in(folder / "c" / "images");
+  const Capture capture = load_capture(folder / "c");
+  {
+    Store store(capture, 0, 90, Writing::Inline);
+    store.remove(1);
+    store.flush();
+    EXPECT_EQ(load_capture(folder / "c").light_field.perspectives().size(), 2U);
+    store.restore(capture.light_field.perspectives()[1]);
+  }
+  EXPECT_EQ(files_in(folder / "c" / "images"), before);
+  EXPECT_EQ(load_capture(folder / "c").light_field.perspectives().at(1).file, png);
 }
 
 TEST(Store, FolderThatGoesAwayIsAnErrorNotACrash) {
