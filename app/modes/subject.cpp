@@ -27,10 +27,7 @@ ModeId SubjectMode::press(const Gesture& gesture, const Moment& moment) {
       break;
     case hal::Button::Plus:
     case hal::Button::Minus:
-      depth_steps_ += steps_of(gesture);
-      if (!aperture_) {
-        place();
-      }
+      slide(steps_of(gesture));
       break;
     case hal::Button::Wipe:
       return take_back(moment);
@@ -51,9 +48,16 @@ ModeId SubjectMode::update(const Moment& moment) {
   return ModeId::Subject;
 }
 
+std::string SubjectMode::title() const {
+  if (aperture_) {
+    return "focus on the subject";
+  }
+  return placed_ ? "the sphere is placed" : "aim at the subject";
+}
+
 Picture SubjectMode::draw(const Moment& moment) const {
   Picture picture;
-  picture.title = aperture_ ? "focus on the subject" : "aim at the subject";
+  picture.title = title();
   picture.advice = tracking_advice(moment.tracked);
   picture.reticle = !placed_;
   const auto subject = sphere();
@@ -70,8 +74,9 @@ Picture SubjectMode::draw(const Moment& moment) const {
   } else {
     picture.coverage = CoveragePicture{*subject, {}, std::nullopt};
     if (picture.advice.empty()) {
-      picture.advice = placed_ ? "+ and - slide the sphere; Main begins the capture"
-                               : "Main puts the sphere here; Review focuses instead";
+      picture.advice = placed_
+                           ? "+ and - slide the sphere; Main begins the capture"
+                           : "Main puts the sphere here; + and - slide it; Review focuses instead";
     }
   }
   return picture;
@@ -103,6 +108,12 @@ std::optional<lightfield::Sphere> SubjectMode::sphere() const {
   const auto& options = session_.config.capture;
   return sphere_on_ray(*ray_, slide_depth(*first_depth_, depth_steps_, options.depth_step),
                        options);
+}
+
+void SubjectMode::slide(int steps) {
+  if (sphere()) {  // what is not seen is not slid
+    depth_steps_ += steps;
+  }
 }
 
 void SubjectMode::place() {

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "app/aperture.h"
 #include "app/modes/mode.h"
@@ -26,7 +27,10 @@ class SubjectMode : public Mode {
 
   /// Where the sphere would be now; none as long as no depth is known.
   std::optional<lightfield::Sphere> sphere() const;
+  /// Moves the sphere, or where it would be placed, along the ray.
+  void slide(int steps);
   void place();
+  std::string title() const;
   void toggle_aperture();
   ModeId take_back(const Moment& moment);
   ModeId confirm(const Moment& moment);
@@ -35,7 +39,7 @@ class SubjectMode : public Mode {
   geometry::Camera camera_;
   std::optional<Ray> ray_;              ///< the reticle's, in world; stands still once placed
   std::optional<double> first_depth_;   ///< of the tracked points around the ray
-  int depth_steps_ = 0;                 ///< slid by the person
+  int depth_steps_ = 0;                 ///< slid by the person, before placing it or after
   bool placed_ = false;                 ///< the ray stands still in the world
   std::unique_ptr<Aperture> aperture_;  ///< while the augmented aperture is on
 };

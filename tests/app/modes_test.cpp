@@ -93,9 +93,42 @@ TEST(Subject, SphereFollowsTheReticleUntilItIsPlaced) {
   EXPECT_EQ(box.picture.coverage->sphere.center, placed);
 }
 
-TEST(Subject, PlusAndMinusSlideTheSphereAlongTheRayFixedInTheWorld) {
+// Whoever adjusts first must not find the capture begun by the Main that was meant to place.
+TEST(Subject, PlusAndMinusSlideTheSphereThatFollowsTheReticleAndOnlyMainPlacesIt) {
   Box box;
   box.tick();
+  const Eigen::Vector3d seen = box.picture.coverage->sphere.center;
+  box.tick({kPlus});
+  const Eigen::Vector3d farther = box.picture.coverage->sphere.center;
+  EXPECT_GT(farther.z(), seen.z());
+  EXPECT_TRUE(box.picture.reticle);
+  EXPECT_EQ(box.picture.title, "aim at the subject");
+  box.tick_with({}, box.world.see_from({Eigen::Quaterniond::Identity(), {1.0, 0.0, 0.0}}));
+  EXPECT_NEAR(box.picture.coverage->sphere.center.x(), 1.0, 1e-2);
+  EXPECT_NEAR(box.picture.coverage->sphere.center.z(), farther.z(), 1e-2) << "still farther";
+  box.tick({kMain});
+  EXPECT_EQ(box.modes.current(), ModeId::Subject);
+  EXPECT_FALSE(box.picture.reticle);
+  EXPECT_EQ(box.picture.title, "the sphere is placed");
+  EXPECT_FALSE(box.recorder.light_field().subject());
+  box.tick({kMain});
+  EXPECT_EQ(box.modes.current(), ModeId::Capture);
+}
+
+TEST(Subject, WhatIsNotSeenIsNotSlid) {
+  Box box;
+  Moment nothing_there = box.world.see_from({});
+  nothing_there.map_points.clear();
+  box.tick_with({}, nothing_there);
+  box.tick_with({kPlus, kPlusLong}, nothing_there);
+  box.tick();
+  EXPECT_NEAR(box.picture.coverage->sphere.center.z(), 1.0, 1e-2);
+}
+
+TEST(Subject, PlusAndMinusSlideThePlacedSphereAlongTheRayFixedInTheWorld) {
+  Box box;
+  box.tick();
+  box.tick({kMain});
   const Eigen::Vector3d first = box.picture.coverage->sphere.center;
   box.tick({kPlus});
   const Eigen::Vector3d farther = box.picture.coverage->sphere.center;
