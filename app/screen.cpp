@@ -46,25 +46,38 @@ void Screen::draw_backdrop(const Picture& picture, const hal::Frame& frame,
 }
 
 void Screen::draw_text(const Picture& picture) {
-  const auto height = static_cast<float>(display_.height());
-  const float size = std::max(12.0F, height / 26.0F);
+  overlay_.draw_text(text_of(picture, display_.width(), display_.height()), display_.width(),
+                     display_.height(), display_.framebuffer());
+}
+
+std::vector<render::Text> text_of(const Picture& picture, int width, int height) {
+  const auto bottom = static_cast<float>(height);
+  const float size = std::max(12.0F, bottom / 26.0F);
   const float margin = 0.6F * size;
+  const float step = 1.4F * size;  // from line to line
+  const auto wrap = [&](const std::string& text, float letter_size) {
+    const float room = static_cast<float>(width) - 2.0F * margin;
+    const float letters = std::max(1.0F, room / (kLetterWidth * letter_size));
+    return wrapped(text, static_cast<std::size_t>(letters));
+  };
   std::vector<render::Text> lines;
   float baseline = margin + size;
   lines.push_back({picture.title, margin, baseline, size, kWhite});
   const float alert_size = 0.8F * size;
-  const auto letters = static_cast<std::size_t>(std::max(
-      1.0F, (static_cast<float>(display_.width()) - 2.0F * margin) / (kLetterWidth * alert_size)));
   for (const std::string& alert : picture.alerts) {
-    for (const std::string& line : wrapped(alert, letters)) {
-      baseline += 1.4F * size;
+    for (const std::string& line : wrap(alert, alert_size)) {
+      baseline += step;
       lines.push_back({line, margin, baseline, alert_size, kRed});
     }
   }
-  if (!picture.advice.empty()) {
-    lines.push_back({picture.advice, margin, height - margin, size, kYellow});
+  if (picture.advice.empty()) return lines;
+  const std::vector<std::string> advice = wrap(picture.advice, size);
+  baseline = bottom - margin - step * static_cast<float>(advice.size() - 1);
+  for (const std::string& line : advice) {
+    lines.push_back({line, margin, baseline, size, kYellow});
+    baseline += step;
   }
-  overlay_.draw_text(lines, display_.width(), display_.height(), display_.framebuffer());
+  return lines;
 }
 
 std::vector<std::string> wrapped(const std::string& text, std::size_t letters) {

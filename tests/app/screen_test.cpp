@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace lumibox::app {
 namespace {
 
@@ -27,6 +29,30 @@ TEST(FittedCamera, ShowsTheWholePictureInTheMiddle) {
   EXPECT_NEAR(corner_of(639.5, 479.5).y(), 239.5, 1e-9);
   EXPECT_NEAR(corner_of(-0.5, 0.0).x(), 339.5, 1e-9);
   EXPECT_NEAR(corner_of(639.5, 0.0).x(), 659.5, 1e-9);
+}
+
+TEST(TextOf, APictureFitsTheDisplayWhateverItSays) {
+  Picture picture;
+  picture.title = "aim at the subject";
+  for (int i = 0; i < 30; ++i) picture.advice += "words ";
+  picture.alerts = {picture.advice};
+  const std::vector<render::Text> lines = text_of(picture, 640, 480);
+  ASSERT_GT(lines.size(), 5U);
+  float alerts_end = 0.0F;
+  float advice_begin = 480.0F;
+  for (const render::Text& line : lines) {
+    const auto letters = static_cast<float>(line.utf8.size());
+    EXPECT_LE(line.x + 0.6F * line.size * letters, 640.0F) << line.utf8;
+    EXPECT_LE(line.y, 480.0F - 0.5F * line.size) << line.utf8;
+    const bool is_advice = line.color.g > 0.5F && line.color.b < 0.5F;
+    if (is_advice) {
+      advice_begin = std::min(advice_begin, line.y - line.size);
+    } else {
+      alerts_end = std::max(alerts_end, line.y);
+    }
+  }
+  EXPECT_LT(alerts_end, advice_begin);
+  EXPECT_LT(advice_begin, 480.0F) << "the advice is there";
 }
 
 TEST(Wrapped, BreaksBetweenWordsAndWithinThoseThatAreTooLong) {
