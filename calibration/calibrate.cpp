@@ -140,20 +140,13 @@ std::optional<Refusal> judge_estimates(const std::vector<Estimate>& estimates) {
   return std::nullopt;
 }
 
-/// A fisheye lens may see behind itself, where nothing can be said; any other must see every pixel.
 std::optional<Refusal> judge_fold(const config::CameraProfile& profile) {
-  if (profile.model == config::LensModel::Fisheye) return std::nullopt;
-  const geometry::Camera camera(profile);
-  for (const double x : {0.0, profile.width - 1.0}) {
-    for (const double y : {0.0, profile.height - 1.0}) {
-      if (camera.unproject({x, y})) continue;
-      return Refusal{Reason::LensFolds,
-                     fmt::format("the distortion found turns back before pixel {:.0f}, {:.0f}; "
-                                 "expected corners of the board nearer to it, or --model fisheye",
-                                 x, y)};
-    }
-  }
-  return std::nullopt;
+  const auto corner = geometry::Camera(profile).corner_beyond_fold();
+  if (!corner) return std::nullopt;
+  return Refusal{Reason::LensFolds,
+                 fmt::format("the distortion found turns back before pixel {:.0f}, {:.0f}; "
+                             "expected corners of the board nearer to it, or --model fisheye",
+                             corner->x(), corner->y())};
 }
 
 std::vector<Estimate> estimates_of(const Request& request, const Kept& kept) {

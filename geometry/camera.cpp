@@ -208,6 +208,16 @@ Eigen::Vector2d Camera::distort(const Eigen::Vector2d& normalised) const {
   return {profile_.fx * d.x() + profile_.cx, profile_.fy * d.y() + profile_.cy};
 }
 
+std::optional<Eigen::Vector2d> Camera::corner_beyond_fold() const {
+  if (profile_.model == config::LensModel::Fisheye) return std::nullopt;
+  for (const double x : {0.0, profile_.width - 1.0}) {
+    for (const double y : {0.0, profile_.height - 1.0}) {
+      if (!unproject({x, y})) return Eigen::Vector2d(x, y);
+    }
+  }
+  return std::nullopt;
+}
+
 Camera Camera::at_level(int level) const {
   config::CameraProfile p = profile_;
   for (int i = 0; i < level; ++i) {

@@ -39,6 +39,11 @@ class Camera {
   /// it never does, but 1e6 at most for a fisheye lens (89.9 degrees from the optical axis).
   double fold_radius2() const { return fold_radius2_; }
 
+  /// A corner of the picture that the lens cannot show, since its distortion folds nearer to the
+  /// middle; none of a lens that shows them all, and of a fisheye lens, which may see behind
+  /// itself.
+  std::optional<Eigen::Vector2d> corner_beyond_fold() const;
+
   /// True if the pixel lies inside the image, at least `border` pixels from the outermost centres.
   bool contains(const Eigen::Vector2d& pixel, double border = 0.0) const {
     return pixel.x() >= border && pixel.y() >= border && pixel.x() <= profile_.width - 1 - border &&

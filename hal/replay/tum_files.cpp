@@ -6,9 +6,12 @@
 #include <fstream>
 #include <iomanip>
 #include <optional>
+#include <sstream>
+#include <string>
 
 #include "config/error.h"
 #include "config/loader.h"
+#include "geometry/camera.h"
 #include "geometry/position.h"
 #include "hal/replay/text_file.h"
 
@@ -61,6 +64,18 @@ StampedPose read_pose(const TextLine& line) {
   return pose;
 }
 
+/// What calibrate refuses too. Nothing can be tracked where there is no telling where a pixel
+/// looks, and what would be said then is that the pictures are bad.
+std::optional<std::string> fault_of_lens(const config::CameraProfile& profile) {
+  const auto corner = geometry::Camera(profile).corner_beyond_fold();
+  if (!corner) return std::nullopt;
+  std::ostringstream message;
+  message << "the distortion turns back before pixel " << corner->x() << ", " << corner->y()
+          << "; expected a lens that shows the whole picture of " << profile.width << "x"
+          << profile.height;
+  return message.str();
+}
+
 enum class Times { Any, Increasing };
 
 std::vector<StampedPose> read_poses(const fs::path& file, Times times) {
@@ -95,7 +110,11 @@ std::vector<ImageLine> read_image_list(const fs::path& file) {
 }
 
 config::CameraProfile read_calibration(const fs::path& file) {
-  if (file.extension() == ".toml") return config::load_camera_profile(file);
+  if (file.extension() == ".toml") {
+    const config::CameraProfile profile = config::load_camera_profile(file);
+    if (const auto fault = fault_of_lens(profile)) throw InputError(file, *fault);
+    return profile;
+  }
   const TextFile text(file);
   const std::string expected = "fx fy cx cy k1 k2 p1 p2 width height fps [k3 [readout_s]]";
   if (text.lines().size() != 1) {
@@ -121,6 +140,7 @@ config::CameraProfile read_calibration(const fs::path& file) {
   if (const auto fault = config::fault_of(profile)) {
     throw line.error(*fault);
   }
+  if (const auto fault = fault_of_lens(profile)) throw line.error(*fault);
   return profile;
 }
 

@@ -167,6 +167,17 @@ TEST_F(BadSequence, PrincipalPointFarOutside) {
   EXPECT_THAT(complaint(), AllOf(HasSubstr("calib.txt:1"), HasSubstr("cy is 1100")));
 }
 
+// Else the tracking would complain about the pictures.
+TEST_F(BadSequence, LensThatFoldsInsideThePicture) {
+  const std::string words = "turns back before pixel 0, 0; expected";
+  replace("calib.txt", "# a comment\n30 30 15 11 -3 0 0 0 32 24 10\n");
+  EXPECT_THAT(complaint(), AllOf(HasSubstr("calib.txt:2"), HasSubstr(words)));
+  const auto profile = recording_.dir().write(
+      "lens.toml", "width = 32\nheight = 24\nfx = 30\nfy = 30\ncx = 15\ncy = 11\nk1 = -3\n");
+  EXPECT_THAT(testing::message_of([&] { open_sequence(recording_.folder(), profile); }),
+              AllOf(HasSubstr("lens.toml"), HasSubstr(words)));
+}
+
 TEST_F(BadSequence, EmptyImageList) {
   for (const char* text : {"", "# timestamp filename\n", "\n\n"}) {
     replace("rgb.txt", text);
