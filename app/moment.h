@@ -27,11 +27,11 @@ struct MapNow {
 
 /// All that the modes see of the world in one tick.
 struct Moment {
-  std::int64_t now_ns = 0;                  ///< Clock time of the tick
-  hal::Frame frame;                         ///< newest picture; color is null before the first one
-  bool fresh = false;                       ///< the picture came in this tick
-  double tracking_ms = 0.0;                 ///< time spent tracking it; 0 on a virtual clock
-  tracking::TrackedFrame tracked;           ///< of `frame`
+  std::int64_t now_ns = 0;         ///< Clock time of the tick
+  hal::Frame frame;                ///< newest picture; color is null before the first one
+  bool fresh = false;              ///< the picture came in this tick
+  double tracking_ms = 0.0;        ///< spent tracking it, without the mapper; 0 on a virtual clock
+  tracking::TrackedFrame tracked;  ///< of `frame`
   std::vector<Eigen::Vector3d> map_points;  ///< in world, those seen in `frame`
   /// What the pose of `frame` was estimated from; valid until the next one is tracked.
   const tracking::FrameMeasurements* measurements = nullptr;

@@ -1,5 +1,6 @@
 #include "app/sight.h"
 
+#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -30,9 +31,11 @@ const Moment& Sight::look() {
   moment_.fresh = frame.has_value();
   if (frame) {
     moment_.frame = std::move(*frame);
+    std::int64_t tracked_ns = moment_.now_ns;
     moment_.tracked =
-        tracker_.track(*moment_.frame.gray, moment_.frame.index, moment_.frame.timestamp_ns);
-    moment_.tracking_ms = 1e-6 * static_cast<double>(clock_.now_ns() - moment_.now_ns);
+        tracker_.track(*moment_.frame.gray, moment_.frame.index, moment_.frame.timestamp_ns,
+                       [this, &tracked_ns] { tracked_ns = clock_.now_ns(); });
+    moment_.tracking_ms = 1e-6 * static_cast<double>(tracked_ns - moment_.now_ns);
     moment_.map_points = tracker_.visible_points();
     moment_.measurements = &tracker_.measurements();
   }

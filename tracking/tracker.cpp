@@ -66,6 +66,12 @@ class Tracker::Impl {
     return result;
   }
 
+  /// What the frame asks of the mapper; in lockstep it is done when this returns.
+  void hand_to_mapper() {
+    if (wanted_) mapper_.request(*std::exchange(wanted_, std::nullopt));
+    if (frames_at_rest_ == kRestFrames) mapper_.rest();
+  }
+
   std::optional<geometry::Similarity> world_from_keyframe(KeyframeId id) const {
     const auto map = mapper_.view();
     if (!map || id < 0 || static_cast<std::size_t>(id) >= map->keyframes.size())
@@ -231,20 +237,20 @@ class Tracker::Impl {
                 result);
   }
 
-  /// Asks for a keyframe where the map needs one. A pose that is not certain enough to record with
-  /// may well be one from which the map grows until it is.
+  /// Decides on a keyframe where the map needs one. A pose that is not certain enough to record
+  /// with may well be one from which the map grows until it is.
   void extend_map(const std::shared_ptr<const Pyramid>& frame, const Localisation* found) {
     const bool shown = found && last_shown_ == frame;
     const auto ask = [&](std::optional<KeyframeRequest> request) {
       if (!request || !shown) return;
-      mapper_.request(std::move(*request));
+      wanted_ = std::move(request);
       frames_at_rest_ = 0;
     };
     ask(chooser_.complete(motion_));
     if (shown && !mapper_.busy()) {
       ask(chooser_.consider(*map_, {anchor_, anchor_from_camera_}, frame, *found, motion_));
     }
-    if (++frames_at_rest_ == kRestFrames) mapper_.rest();
+    ++frames_at_rest_;
   }
 
   /// Where the map no longer shows, a turn on the spot may explain the picture: the pose then is
@@ -330,6 +336,7 @@ class Tracker::Impl {
   geometry::FramePose predicted_;              // of the present frame
   std::shared_ptr<const Pyramid> last_shown_;  // the last frame, if it showed the map
   int frames_at_rest_ = 0;                     // since the last keyframe
+  std::optional<KeyframeRequest> wanted_;      // of the present frame, until the mapper has it
   int frames_turned_ = 0;                      // since the map last showed
   KeyframeId anchor_ = -1;
   geometry::Pose anchor_from_camera_;
@@ -355,8 +362,12 @@ void Tracker::start_over() {
   impl_ = begin_();
 }
 
-TrackedFrame Tracker::track(const hal::Image& gray, std::int64_t index, std::int64_t timestamp_ns) {
-  return impl_->track(gray, index, timestamp_ns);
+TrackedFrame Tracker::track(const hal::Image& gray, std::int64_t index, std::int64_t timestamp_ns,
+                            const std::function<void()>& before_mapping) {
+  TrackedFrame result = impl_->track(gray, index, timestamp_ns);
+  if (before_mapping) before_mapping();
+  impl_->hand_to_mapper();
+  return result;
 }
 std::optional<geometry::Similarity> Tracker::world_from_keyframe(KeyframeId id) const {
   return impl_->world_from_keyframe(id);

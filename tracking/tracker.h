@@ -54,8 +54,11 @@ class Tracker {
   /// of its own.
   void start_over();
 
-  /// Tracks one frame of the camera's size. Frames come in order of time.
-  TrackedFrame track(const hal::Image& gray, std::int64_t index, std::int64_t timestamp_ns);
+  /// Tracks one frame of the camera's size. Frames come in order of time. `before_mapping` is
+  /// called when the frame is tracked and the mapper, which in lockstep has its turn before this
+  /// returns, has not begun: for those who measure what a frame costs on the box.
+  TrackedFrame track(const hal::Image& gray, std::int64_t index, std::int64_t timestamp_ns,
+                     const std::function<void()>& before_mapping = {});
 
   /// Current estimate of a keyframe's place; none if it never existed. Its scale is what closing
   /// loops has multiplied lengths around it by, 1 until then. A culled keyframe keeps answering

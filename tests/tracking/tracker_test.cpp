@@ -72,6 +72,28 @@ TEST(Tracker, StartsByItselfAndFollowsAStraightWalk) {
   }
 }
 
+// Or what a frame is said to cost would hold what on the box a thread beside it does.
+TEST(Tracker, SaysWhenAFrameIsTrackedBeforeTheMapperHasItsTurn) {
+  Tracker tracker(testing::small_camera(), options(), Mapping::Lockstep, 1);
+  int calls = 0;
+  int grown_afterwards = 0;
+  for (std::size_t i = 0; i < walk().size(); ++i) {
+    const auto index = static_cast<std::int64_t>(i);
+    const int keyframes_before = tracker.statistics().keyframes;
+    tracker.track(walk()[i], index, index * kPeriod, [&] {
+      ++calls;
+      if (keyframes_before > 0) {
+        EXPECT_EQ(tracker.statistics().keyframes, keyframes_before);
+      }
+    });
+    if (keyframes_before > 0 && tracker.statistics().keyframes > keyframes_before) {
+      ++grown_afterwards;
+    }
+  }
+  EXPECT_EQ(calls, static_cast<int>(walk().size()));
+  EXPECT_GT(grown_afterwards, 0);
+}
+
 TEST(Tracker, TwoLockstepRunsAreIdenticalToTheBit) {
   Tracker a(testing::small_camera(), options(), Mapping::Lockstep, 1);
   Tracker b(testing::small_camera(), options(), Mapping::Lockstep, 1);
