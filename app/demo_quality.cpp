@@ -31,11 +31,14 @@ struct Compared {
 };
 
 void say_likeness(const render::Method& method, const std::vector<Compared>& views,
-                  const std::vector<lightfield::Perspective>& perspectives, Painter& painter) {
+                  const std::vector<lightfield::Perspective>& perspectives,
+                  render::ProxyGeometry& proxy, Painter& painter) {
   double worst = std::numeric_limits<double>::infinity();
   double sum = 0.0;
   for (const Compared& compared : views) {
-    const hal::Image rendered = painter.paint(compared.view, perspectives, method.settings);
+    const hal::Image rendered =
+        painter.paint(compared.view, perspectives,
+                      proxy.fit(method.settings, method.geometry, compared.view, perspectives));
     const double psnr = render::psnr(rendered, compared.actual, &compared.subject);
     worst = std::min(worst, psnr);
     sum += psnr;
@@ -81,9 +84,10 @@ void say_quality(const hal::Scene& scene, const Loop& loop) {
   }
   std::printf("%zu views between them, against the simulator's own, on the subject:\n", kViews);
   Painter painter(Exactness::Fast);
+  render::ProxyGeometry proxy(loop.moment().map.points());
   for (const render::Method& method :
        render::compared_methods(loop.config().render, light_field.subject()->center)) {
-    say_likeness(method, views, perspectives, painter);
+    say_likeness(method, views, perspectives, proxy, painter);
   }
 }
 

@@ -45,10 +45,13 @@ std::vector<Method> compared_methods(const config::Render& options, const Eigen:
   const Settings wide = settings_from(options, Aperture::Wide, focus);
   Settings sharp = wide;
   sharp.exponent = kSharpExponent;
+  const Settings small = settings_from(options, Aperture::Small, focus);
   return {{"nearest", nearest},
-          {"plane-small", settings_from(options, Aperture::Small, focus)},
+          {"plane-small", small},
           {"plane-wide", wide},
-          {"plane-sharp", sharp}};
+          {"plane-sharp", sharp},
+          {"focal", small, Geometry::Focal},
+          {"mesh", small, Geometry::Mesh}};
 }
 
 UndistortedPicture undistort(const Perspective& perspective) {

@@ -7,6 +7,7 @@
 #include "config/config.h"
 #include "hal/image.h"
 #include "lightfield/perspective.h"
+#include "render/proxy_geometry.h"
 #include "render/view.h"
 
 namespace lumibox::render {
@@ -29,11 +30,13 @@ struct ViewQuality {
 struct Method {
   std::string name;
   Settings settings;
+  Geometry geometry = Geometry::Plane;
 };
 
 /// What is compared: `nearest`, the nearest picture alone on its plane; `plane-small` and
 /// `plane-wide`, the apertures as the person sees them; `plane-sharp`, the wide aperture with so
-/// high an exponent that only the nearest few count (thesis 3.2: a large depth of field).
+/// high an exponent that only the nearest few count (thesis 3.2: a large depth of field); `focal`
+/// and `mesh`, the small aperture on those (see Geometry).
 std::vector<Method> compared_methods(const config::Render& options, const Eigen::Vector3d& focus);
 
 struct MethodQuality {

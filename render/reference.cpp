@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "render/blending.h"
+#include "render/depth_grid.h"
 #include "render/sampling.h"
 
 namespace lumibox::render {
@@ -49,6 +50,32 @@ Contribution contribution(const Ray& ray, const Layer& layer,
   return {sample_bilinear(image, *pixel), layer.weight * fade};
 }
 
+/// The same where the pixel's ray meets a shape at an inverse depth.
+Contribution contribution_on_shape(const Eigen::Vector3d& pixel_of_view, double inverse_depth,
+                                   const Layer& layer, const lightfield::Perspective& perspective,
+                                   const Settings& settings) {
+  const Eigen::Vector3d ray_of_view = layer.source_from_pixel * pixel_of_view;
+  const Eigen::Vector3d ray_of_source = ray_of_view + inverse_depth * layer.shift;
+  const std::optional<Eigen::Vector2d> pixel = perspective.camera->project(ray_of_source);
+  if (!pixel) return {};
+  const hal::Image& image = *perspective.color;
+  const double fade = feather(*pixel, image.width(), image.height(), settings.feather_px);
+  if (fade <= 0.0) return {};
+  return {sample_bilinear(image, *pixel),
+          layer.weight * fade * closeness(ray_of_view, ray_of_source)};
+}
+
+/// Weighted mean of what sees a shape, black where nothing does.
+Eigen::Vector3d blend_on_shape(const std::vector<Contribution>& contributions) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double total = 0.0;
+  for (const Contribution& c : contributions) {
+    sum += c.weight * c.color;
+    total += c.weight;
+  }
+  return total > 0.0 ? Eigen::Vector3d(sum / total) : sum;
+}
+
 /// Thesis 3.2, wide aperture: weighted mean.
 Eigen::Vector3d blend_wide(const std::vector<Contribution>& contributions) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -81,10 +108,14 @@ hal::Image render_reference(const View& view,
     for (int u = 0; u < image.width(); ++u) {
       const Ray ray = ray_of_pixel(view, u, v);
       for (std::size_t i = 0; i < layers.size(); ++i) {
-        contributions[i] =
-            contribution(ray, layers[i], perspectives[layers[i].perspective], settings);
+        const lightfield::Perspective& perspective = perspectives[layers[i].perspective];
+        contributions[i] = settings.shape ? contribution_on_shape(Eigen::Vector3d(u, v, 1.0),
+                                                                  settings.shape->at(u, v),
+                                                                  layers[i], perspective, settings)
+                                          : contribution(ray, layers[i], perspective, settings);
       }
-      const Eigen::Vector3d color = settings.aperture == Aperture::Wide
+      const Eigen::Vector3d color = settings.shape ? blend_on_shape(contributions)
+                                    : settings.aperture == Aperture::Wide
                                         ? blend_wide(contributions)
                                         : blend_small(contributions);
       for (int channel = 0; channel < 3; ++channel) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "render/blending.h"
+#include "render/depth_grid.h"
 #include "render/gl.h"
 #include "render/picture_cache.h"
 #include "render/shader_source.h"
@@ -23,6 +24,7 @@ struct LayerUniforms {
   std::array<float, 4> blend;
   std::array<float, 4> intrinsics;
   std::array<float, 4> distortion;
+  std::array<float, 4> shift;
 };
 static_assert(sizeof(LayerUniforms) * kMaxLayers <= 16384, "the least that ES 3 promises");
 
@@ -44,14 +46,33 @@ Eigen::Matrix3d pixel_from_ray(const config::CameraProfile& c) {
   return m;
 }
 
-LayerUniforms uniforms_of(const Layer& layer, const Perspective& perspective, int view_height,
-                          bool distortion, int slot, const Settings& settings) {
+/// What the fragment shader is compiled for.
+struct Kind {
+  bool small_aperture = false;
+  bool distortion = false;
+  bool shape = false;
+
+  std::size_t index() const {
+    return (small_aperture ? 4U : 0U) + (distortion ? 2U : 0U) + (shape ? 1U : 0U);
+  }
+};
+
+/// Length in which the shader has inverse depths, so that half precision serves.
+double unit_of(const View& view, const Settings& settings) {
+  const double distance = (settings.focus - view.world_from_camera.translation).norm();
+  return distance > 0.0 ? distance : 1.0;
+}
+
+LayerUniforms uniforms_of(const Layer& layer, const Perspective& perspective, const View& view,
+                          const Kind& kind, int slot, const Settings& settings) {
   const config::CameraProfile& c = perspective.camera->profile();
   Eigen::Matrix<double, 4, 3> m;
   m.topRows<3>() = layer.source_from_pixel;
-  if (!distortion) m.topRows<3>() = pixel_from_ray(c) * layer.source_from_pixel;
+  if (!kind.distortion && !kind.shape) {
+    m.topRows<3>() = pixel_from_ray(c) * layer.source_from_pixel;
+  }
   m.row(3) = layer.before_view.transpose();
-  m = m * pixel_from_fragment(view_height);
+  m = m * pixel_from_fragment(view.camera.height());
 
   const int width = perspective.color->width();
   const int height = perspective.color->height();
@@ -66,6 +87,8 @@ LayerUniforms uniforms_of(const Layer& layer, const Perspective& perspective, in
   const bool fisheye = c.model == config::LensModel::Fisheye;
   u.blend = vec4(layer.weight, c.k3, fold, fisheye ? 1.0 : 0.0);
   u.intrinsics = vec4(c.fx, c.fy, c.cx, c.cy);
+  const Eigen::Vector3d shift = layer.shift / unit_of(view, settings);
+  u.shift = vec4(shift.x(), shift.y(), shift.z(), 0.0);
   u.distortion = fisheye ? vec4(c.k1, c.k2, c.k3, c.k4) : vec4(c.k1, c.k2, c.p1, c.p2);
   return u;
 }
@@ -78,10 +101,16 @@ struct Variant {
   GLint least_total_weight = -1;
   GLint stop = -1;
 
-  Variant(Aperture aperture, bool distortion) {
+  GLint cells = -1;
+
+  explicit Variant(const Kind& kind) {
     std::string prelude = "#define MAX_LAYERS " + std::to_string(kMaxLayers) + "\n";
-    if (aperture == Aperture::Small) prelude += "#define SMALL_APERTURE\n";
-    if (distortion) prelude += "#define DISTORTION\n";
+    if (kind.small_aperture) prelude += "#define SMALL_APERTURE\n";
+    if (kind.distortion) prelude += "#define DISTORTION\n";
+    if (kind.shape) {
+      prelude += "#define SHAPE\n#define FARTHER_PENALTY " + std::to_string(kFartherPenalty) +
+                 "\n#define LEAST_PENALTY " + std::to_string(kLeastPenalty) + "\n";
+    }
     prelude += shader_source("lens.glsl");
     program = gl::make_program("screen.vert", "light_field.frag", prelude);
     layer_count = gl::uniform(program, "layer_count");
@@ -91,6 +120,10 @@ struct Variant {
     glUniformBlockBinding(program.name(), glGetUniformBlockIndex(program.name(), "Layers"), 0);
     glUseProgram(program.name());
     glUniform1i(gl::uniform(program, "pictures"), 0);
+    if (kind.shape) {
+      cells = gl::uniform(program, "cells");
+      glUniform1i(gl::uniform(program, "inverse_depths"), 1);
+    }
   }
 };
 
@@ -108,22 +141,28 @@ class Renderer::Impl {
     std::vector<Layer> layers = plan_view(view, perspectives, settings);
     const std::size_t planned = layers.size();
     std::erase_if(layers, [](const Layer& layer) { return layer.weight <= 0.0; });
-    const bool distortion = std::any_of(layers.begin(), layers.end(), [&](const Layer& layer) {
+    Kind kind;
+    kind.shape = settings.shape != nullptr;
+    kind.small_aperture = settings.aperture == Aperture::Small && !kind.shape;
+    kind.distortion = std::any_of(layers.begin(), layers.end(), [&](const Layer& layer) {
       return perspectives[layer.perspective].camera->has_distortion();
     });
-    fill_uniforms(layers, perspectives, view.camera.height(), distortion, settings);
+    fill_uniforms(layers, perspectives, view, kind, settings);
 
     gl::begin(framebuffer, view.camera.width(), view.camera.height(), gl::Blend::Replace);
-    const Variant& variant = variant_for(settings.aperture, distortion);
+    const Variant& variant = variant_for(kind);
     glUseProgram(variant.program.name());
     glUniform1i(variant.layer_count, static_cast<GLint>(layers.size()));
     glUniform2f(variant.texel_size, 1.0F / static_cast<float>(std::max(1, cache_.width())),
                 1.0F / static_cast<float>(std::max(1, cache_.height())));
-    glUniform1f(variant.least_total_weight, static_cast<float>(least_total_weight(planned)));
+    glUniform1f(variant.least_total_weight, kind.shape
+                                                ? std::numeric_limits<float>::min()
+                                                : static_cast<float>(least_total_weight(planned)));
     glUniform1f(variant.stop, static_cast<float>(settings.small_aperture_stop));
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, uniforms_.name());
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D_ARRAY, cache_.texture());
+    if (kind.shape) bind_shape(view, settings, variant.cells);
     glBindVertexArray(vertex_array_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
@@ -136,7 +175,7 @@ class Renderer::Impl {
 
  private:
   void fill_uniforms(const std::vector<Layer>& layers, const std::vector<Perspective>& perspectives,
-                     int view_height, bool distortion, const Settings& settings) {
+                     const View& view, const Kind& kind, const Settings& settings) {
     if (layers.empty()) return;
     int width = 0;
     int height = 0;
@@ -150,25 +189,44 @@ class Renderer::Impl {
     for (const Layer& layer : layers) {
       const Perspective& perspective = perspectives[layer.perspective];
       const int slot = cache_.slot_of(perspective.color);
-      data.push_back(uniforms_of(layer, perspective, view_height, distortion, slot, settings));
+      data.push_back(uniforms_of(layer, perspective, view, kind, slot, settings));
     }
     glBindBuffer(GL_UNIFORM_BUFFER, uniforms_.name());
     glBufferSubData(GL_UNIFORM_BUFFER, 0,
                     static_cast<GLsizeiptr>(data.size() * sizeof(LayerUniforms)), data.data());
   }
 
+  void bind_shape(const View& view, const Settings& settings, GLint cells) {
+    const DepthGrid& shape = *settings.shape;
+    std::vector<float> scaled = shape.inverse_depths();
+    for (float& value : scaled) value *= static_cast<float>(unit_of(view, settings));
+    glActiveTexture(GL_TEXTURE1);
+    if (shape_.name() == 0) shape_ = gl::make_texture(GL_TEXTURE_2D);
+    glBindTexture(GL_TEXTURE_2D, shape_.name());
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R16F, shape.columns(), shape.rows(), 0, GL_RED, GL_FLOAT,
+                 scaled.data());
+    // Corner i lies at pixel i * cell, in the middle of texel i; fragment rows go up.
+    const double cell = shape.cell();
+    const double last_row = view.camera.height() - 0.5;
+    glUniform4f(cells, static_cast<float>(1.0 / (cell * shape.columns())),
+                static_cast<float>(-1.0 / (cell * shape.rows())),
+                static_cast<float>((0.5 - 0.5 / cell) / shape.columns()),
+                static_cast<float>((0.5 + last_row / cell) / shape.rows()));
+    glActiveTexture(GL_TEXTURE0);
+  }
+
   /// Compiled when first needed.
-  const Variant& variant_for(Aperture aperture, bool distortion) {
-    std::optional<Variant>& variant =
-        variants_[(aperture == Aperture::Small ? 2U : 0U) + (distortion ? 1U : 0U)];
-    if (!variant) variant.emplace(aperture, distortion);
+  const Variant& variant_for(const Kind& kind) {
+    std::optional<Variant>& variant = variants_[kind.index()];
+    if (!variant) variant.emplace(kind);
     return *variant;
   }
 
   gl::VertexArray vertex_array_;
   gl::Buffer uniforms_;
   PictureCache cache_;
-  std::array<std::optional<Variant>, 4> variants_;
+  gl::Texture shape_;  ///< inverse depths of the view drawn last
+  std::array<std::optional<Variant>, 8> variants_;
 };
 
 Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}

@@ -69,11 +69,24 @@ std::optional<Layer> make_layer(const View& view, const lightfield::Perspective&
   return layer;
 }
 
+/// The layer of a perspective before a shape, weight still open.
+Layer make_turned_layer(const View& view, const lightfield::Perspective& perspective) {
+  const Eigen::Matrix3d source_from_world = perspective.world_from_camera.matrix3().transpose();
+  Layer layer;
+  layer.normal = -optical_axis(view.world_from_camera);
+  layer.source_from_pixel =
+      source_from_world * view.world_from_camera.matrix3() * ray_from_pixel(view.camera.profile());
+  layer.before_view = Eigen::Vector3d::UnitZ();
+  layer.shift = source_from_world * (view.world_from_camera.translation - perspective.center());
+  return layer;
+}
+
 /// Candidates of a view in order of increasing penalty. The penalty (figure 2.2) is measured at the
 /// point that the planes pass through: thesis 3 has one S for both.
 std::vector<Layer> visible_layers(const View& view,
                                   const std::vector<lightfield::Perspective>& perspectives,
-                                  const Eigen::Vector3d& focus) {
+                                  const Settings& settings) {
+  const Eigen::Vector3d& focus = settings.focus;
   std::vector<Layer> layers;
   const Eigen::Vector3d towards_view = view.world_from_camera.translation - focus;
   for (std::size_t i = 0; i < perspectives.size(); ++i) {
@@ -82,7 +95,8 @@ std::vector<Layer> visible_layers(const View& view,
         perspective.color->empty()) {
       continue;
     }
-    std::optional<Layer> layer = make_layer(view, perspective, focus);
+    std::optional<Layer> layer = settings.shape ? make_turned_layer(view, perspective)
+                                                : make_layer(view, perspective, focus);
     if (!layer) continue;
     layer->perspective = i;
     layer->penalty = geometry::angle_between(towards_view, perspective.center() - focus);
@@ -105,6 +119,15 @@ void assign_wide_weights(std::vector<Layer>& layers, std::optional<double> first
 }
 
 }  // namespace
+
+double closeness(const Eigen::Vector3d& ray_of_view, const Eigen::Vector3d& ray_of_source) {
+  const double view_length = ray_of_view.norm();
+  const double source_length = ray_of_source.norm();
+  const double angle = (ray_of_view / view_length - ray_of_source / source_length).norm();
+  const double farther = std::max(0.0, source_length / view_length - 1.0);
+  const double penalty = angle + kFartherPenalty * farther + kLeastPenalty;
+  return 1.0 / (penalty * penalty * penalty);
+}
 
 Settings settings_from(const config::Render& options, Aperture aperture,
                        const Eigen::Vector3d& focus) {
@@ -129,14 +152,16 @@ Settings augmented_settings_from(const config::Render& options, const Eigen::Vec
 std::vector<Layer> plan_view(const View& view,
                              const std::vector<lightfield::Perspective>& perspectives,
                              const Settings& settings) {
-  std::vector<Layer> layers = visible_layers(view, perspectives, settings.focus);
+  std::vector<Layer> layers = visible_layers(view, perspectives, settings);
   const std::size_t k = std::min(static_cast<std::size_t>(std::max(settings.k, 0)), kMaxLayers);
   std::optional<double> first_left_out;
   if (layers.size() > k) {
     first_left_out = layers[k].penalty;
     layers.resize(k);
   }
-  if (settings.aperture == Aperture::Wide) {
+  if (settings.shape) {
+    assign_wide_weights(layers, first_left_out, 1.0);
+  } else if (settings.aperture == Aperture::Wide) {
     assign_wide_weights(layers, first_left_out, settings.exponent);
   } else {
     for (std::size_t rank = 0; rank < layers.size(); ++rank) {

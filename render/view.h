@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "config/config.h"
@@ -12,6 +13,8 @@
 namespace lumibox::render {
 
 enum class Aperture { Small, Wide };
+
+class DepthGrid;
 
 /// The requested perspective p_req of thesis 3: a pinhole camera. Distortion of `camera` is
 /// ignored.
@@ -33,6 +36,9 @@ struct Settings {
   double feather_px = 48.0;                         ///< width of the faded border
   double small_aperture_alpha = 0.4;                ///< thesis 3.2
   double small_aperture_stop = 0.004;               ///< transmittance at which a pixel is done
+  /// The scene's shape in the view: pictures are projected onto that instead of planes, and at each
+  /// pixel those count most that see it nearly as the view does; `aperture` means nothing then.
+  std::shared_ptr<const DepthGrid> shape;
 };
 
 /// Settings from the configuration, focus at S.
@@ -55,7 +61,20 @@ struct Layer {
   /// before_view . (u, v, 1) is positive exactly where the pixel's ray meets the plane before the
   /// view and not behind it.
   Eigen::Vector3d before_view;
+  /// With a shape instead of planes: source ~ source_from_pixel * (u, v, 1) + inverse depth *
+  /// shift, where source_from_pixel only turns. Zero with planes.
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
 };
+
+inline constexpr double kFartherPenalty = 0.1;  ///< radians for twice the distance
+inline constexpr double kLeastPenalty =
+    0.004;  ///< radians; at a recorded view it counts nearly alone
+
+/// What a pixel of a shape makes of a perspective that sees it: the view's ray to it and the
+/// perspective's, both in its camera, any lengths in the ratio of the distances. Unstructured
+/// lumigraph rendering (Buehler et al., SIGGRAPH 2001), with a penalty for the angle between the
+/// two and for seeing it from farther away; a weight that grows as the penalty falls.
+double closeness(const Eigen::Vector3d& ray_of_view, const Eigen::Vector3d& ray_of_source);
 
 /// Layers of a view in order of increasing penalty: selection, proxy planes and weights of
 /// thesis 3. Perspectives without a picture and those whose plane cannot be seen from the view

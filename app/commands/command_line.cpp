@@ -162,10 +162,11 @@ void add_render(CLI::App& app) {
       ->check(must_be_finite)
       ->type_name("X");
   command
-      ->add_option_function<std::string>(
-          "--geometry", [](const std::string&) {}, "what the pictures are projected onto")
-      ->check(CLI::IsMember({"plane"}))
-      ->default_str("plane");
+      ->add_option("--geometry", options->geometry,
+                   "what the pictures are projected onto: a plane through the subject, a plane at "
+                   "the depth that serves the view best, or the scene's shape")
+      ->check(CLI::IsMember({"plane", "focal", "mesh"}))
+      ->capture_default_str();
   command
       ->add_option("--calib", options->calibration,
                    "calib.txt or camera profile (.toml) with the intrinsics of the views "

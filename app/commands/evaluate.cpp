@@ -73,11 +73,13 @@ void evaluate(const EvaluateOptions& options) {
     make_folder(*options.pictures);
   }
   Painter painter(options.reference ? Exactness::Exact : Exactness::Fast);
+  render::ProxyGeometry proxy(capture.points);
   std::size_t current = 0;
   const auto render_view = [&](const render::View& view,
                                const std::vector<lightfield::Perspective>& others,
                                const render::Method& method) {
-    hal::Image picture = painter.paint(view, others, method.settings);
+    hal::Image picture =
+        painter.paint(view, others, proxy.fit(method.settings, method.geometry, view, others));
     if (options.pictures) {
       const std::string name = fmt::format("{:06}-{}.png", perspectives[current].id, method.name);
       hal::write_png(*options.pictures / name, picture);

@@ -12,7 +12,7 @@
 #include "hal/image_io.h"
 #include "hal/replay/sequence.h"
 #include "lightfield/capture.h"
-#include "render/view.h"
+#include "render/proxy_geometry.h"
 
 namespace lumibox::app {
 namespace {
@@ -23,6 +23,15 @@ render::Settings settings_of(const RenderOptions& options, const lightfield::Sph
   render.exponent = options.exponent.value_or(render.exponent);
   const auto aperture = options.mode == "wide" ? render::Aperture::Wide : render::Aperture::Small;
   return render::settings_from(render, aperture, subject.center);
+}
+
+render::Geometry geometry_of(const RenderOptions& options) {
+  if (options.geometry == "plane") return render::Geometry::Plane;
+  if (options.geometry == "focal") return render::Geometry::Focal;
+  if (options.mode == "wide") {
+    throw config::InputError("--geometry mesh: is sharp everywhere; a wide aperture needs a plane");
+  }
+  return render::Geometry::Mesh;
 }
 
 }  // namespace
@@ -43,13 +52,16 @@ void render_views(const RenderOptions& options) {
   const geometry::Camera camera =
       options.calibration ? geometry::Camera(hal::read_calibration(*options.calibration))
                           : *perspectives.front().camera;
+  const render::Geometry geometry = geometry_of(options);
+  render::ProxyGeometry proxy(capture.points);
   Painter painter(options.reference ? Exactness::Exact : Exactness::Fast);
   make_folder(options.out);
   Progress progress("rendering", static_cast<std::int64_t>(views.size()));
   for (std::size_t i = 0; i < views.size(); ++i) {
     const render::View view{camera.undistorted(), views[i].world_from_camera};
-    hal::write_png(options.out / fmt::format("{:06}.png", i),
-                   painter.paint(view, perspectives, settings));
+    hal::write_png(
+        options.out / fmt::format("{:06}.png", i),
+        painter.paint(view, perspectives, proxy.fit(settings, geometry, view, perspectives)));
     progress.show(static_cast<std::int64_t>(i + 1));
   }
 }

@@ -1,10 +1,11 @@
 // The light field of thesis 3 in one pass: at each pixel a loop over the layers, nearest first.
 // SMALL_APERTURE blends "over" from the front and stops where nothing behind can be seen any more;
-// otherwise the layers' weighted mean. DISTORTION where any source has a lens that distorts.
+// otherwise the layers' weighted mean. DISTORTION where any source has a lens that distorts. SHAPE
+// where pictures are projected onto the scene's shape instead of planes.
 
 struct Layer {
   // (source.xyz, before_view) = from_x * x + from_y * y + from_1 at gl_FragCoord. The source is in
-  // pixels, or with DISTORTION in normalised coordinates.
+  // pixels, or with DISTORTION or SHAPE in normalised coordinates; with SHAPE at infinity.
   vec4 from_x;
   vec4 from_y;
   vec4 from_1;
@@ -12,6 +13,7 @@ struct Layer {
   vec4 blend;       // weight or alpha, k3, squared radius of the fold, 1 if a fisheye lens
   vec4 intrinsics;  // fx fy cx cy
   vec4 distortion;  // as pixel_of() has it
+  vec4 shift;       // SHAPE: source.xyz moves by this times the inverse depth
 };
 
 layout(std140) uniform Layers {
@@ -22,24 +24,54 @@ uniform vec2 texel_size;           // 1 / size of the texture array
 uniform float least_total_weight;  // wide aperture: smallest divisor
 uniform float stop;                // small aperture: transmittance at which a pixel is done
 uniform sampler2DArray pictures;
+#ifdef SHAPE
+uniform sampler2D inverse_depths;  // at the corners of cells
+uniform vec4 cells;                // texture coordinates = gl_FragCoord.xy * cells.xy + cells.zw
+#endif
 
 out vec4 color;
 
+#ifdef SHAPE
+// render::closeness().
+float closeness(vec3 ray_of_view, vec3 ray_of_source) {
+  float view_length = length(ray_of_view);
+  float source_length = length(ray_of_source);
+  float angle = distance(ray_of_view / view_length, ray_of_source / source_length);
+  float farther = max(0.0, source_length / view_length - 1.0);
+  float near = 1.0 / (angle + FARTHER_PENALTY * farther + LEAST_PENALTY);
+  return near * near * near;
+}
+
+float inverse_depth() {
+  return textureLod(inverse_depths, gl_FragCoord.xy * cells.xy + cells.zw, 0.0).r;
+}
+#endif
+
 // Weight of layer i at this pixel after feathering; 0 where it shows nothing.
-float seen(int i, out vec2 pixel) {
+float seen(int i, float inverse_depth, out vec2 pixel) {
   vec4 source = layers[i].from_x * gl_FragCoord.x + layers[i].from_y * gl_FragCoord.y +
                 layers[i].from_1;
+#ifdef SHAPE
+  vec3 ray_of_view = source.xyz;
+  source.xyz += inverse_depth * layers[i].shift.xyz;
+#endif
   bool visible = source.z > 0.0 && source.w > 0.0;
   pixel = source.xy / source.z;
 #ifdef DISTORTION
   visible = visible && dot(pixel, pixel) < layers[i].blend.z;
   pixel = pixel_of(pixel, layers[i].intrinsics, layers[i].distortion, layers[i].blend.y,
                    layers[i].blend.w > 0.5);
+#elif defined(SHAPE)
+  pixel = layers[i].intrinsics.xy * pixel + layers[i].intrinsics.zw;
 #endif
   vec2 inside = min(pixel, layers[i].picture.xy - pixel) * layers[i].picture.w;
   vec2 fade = clamp(inside, 0.0, 1.0);
   fade = fade * fade * (3.0 - 2.0 * fade);
-  return visible ? layers[i].blend.x * fade.x * fade.y : 0.0;
+  float weight = layers[i].blend.x * fade.x * fade.y;
+#ifdef SHAPE
+  weight *= closeness(ray_of_view, source.xyz);
+#endif
+  return visible ? weight : 0.0;
 }
 
 vec3 picture_at(int i, vec2 pixel) {
@@ -49,11 +81,16 @@ vec3 picture_at(int i, vec2 pixel) {
 
 void main() {
   vec3 sum = vec3(0.0);
+#ifdef SHAPE
+  float depth = inverse_depth();
+#else
+  const float depth = 0.0;
+#endif
 #ifdef SMALL_APERTURE
   float transmittance = 1.0;
   for (int i = 0; i < layer_count && transmittance > stop; ++i) {
     vec2 pixel;
-    float alpha = seen(i, pixel);
+    float alpha = seen(i, depth, pixel);
     if (alpha > 0.0) {
       sum += transmittance * alpha * picture_at(i, pixel);
       transmittance *= 1.0 - alpha;
@@ -64,7 +101,7 @@ void main() {
   float total = 0.0;
   for (int i = 0; i < layer_count; ++i) {
     vec2 pixel;
-    float weight = seen(i, pixel);
+    float weight = seen(i, depth, pixel);
     if (weight > 0.0) {
       sum += weight * picture_at(i, pixel);
       total += weight;

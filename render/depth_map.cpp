@@ -1,0 +1,114 @@
+#include "render/depth_map.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "lightfield/light_field.h"
+#include "render/cost_volume.h"
+#include "render/sampling.h"
+
+namespace lumibox::render {
+namespace {
+
+using lightfield::Perspective;
+
+constexpr int kMaxPixels = 36000;  // of a map; 640x480 becomes 160x120
+constexpr int kDepths = 48;
+constexpr double kNearest = 3.0;  // times as near as the focus
+constexpr std::size_t kNeighbours = 4;
+constexpr double kMinAngle = 0.03;     // radians at S
+constexpr float kCostOfDoubt = 0.04F;  // of colours from 0 to 1
+constexpr float kLeastConfidence = 0.02F;
+
+hal::Image halved(const hal::Image& image) {
+  hal::Image half(image.width() / 2, image.height() / 2, 3);
+  for (int y = 0; y < half.height(); ++y) {
+    for (int x = 0; x < half.width(); ++x) {
+      for (int c = 0; c < 3; ++c) {
+        const int sum = image.at(2 * x, 2 * y)[c] + image.at(2 * x + 1, 2 * y)[c] +
+                        image.at(2 * x, 2 * y + 1)[c] + image.at(2 * x + 1, 2 * y + 1)[c];
+        half.at(x, y)[c] = static_cast<std::uint8_t>((sum + 2) / 4);
+      }
+    }
+  }
+  return half;
+}
+
+/// The perspective's picture, small and without the lens's distortion; grey where it has no pixel.
+SmallPicture small_picture(const Perspective& perspective) {
+  hal::Image image = *perspective.color;
+  int level = 0;
+  while (image.width() * image.height() > kMaxPixels) {
+    image = halved(image);
+    ++level;
+  }
+  const geometry::Camera lens = perspective.camera->at_level(level);
+  SmallPicture small{lens.undistorted(), perspective.world_from_camera, {}};
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      Eigen::Vector3d color = Eigen::Vector3d::Constant(127.5);
+      const auto ray = small.camera.unproject(Eigen::Vector2d(x, y));
+      const auto pixel = ray ? lens.project(ray->homogeneous()) : std::nullopt;
+      if (pixel && lens.contains(*pixel)) color = sample_bilinear(image, *pixel);
+      for (int c = 0; c < 3; ++c) small.rgb.push_back(static_cast<float>(color[c] / 255.0));
+    }
+  }
+  return small;
+}
+
+/// Index of the least of some costs, to a fraction by the parabola through its neighbours.
+double least(const float* costs, int count) {
+  const int best = static_cast<int>(std::min_element(costs, costs + count) - costs);
+  if (best == 0 || best == count - 1) return best;
+  const double below = costs[best - 1];
+  const double above = costs[best + 1];
+  const double curvature = below + above - 2.0 * costs[best];
+  return curvature > 0.0 ? best + 0.5 * (below - above) / curvature : best;
+}
+
+}  // namespace
+
+std::vector<std::size_t> depth_neighbours(const std::vector<Perspective>& perspectives,
+                                          std::size_t index, const Eigen::Vector3d& focus) {
+  std::vector<std::pair<double, std::size_t>> ranked;
+  for (std::size_t i = 0; i < perspectives.size(); ++i) {
+    if (i == index || !perspectives[i].color) continue;
+    const double angle =
+        lightfield::angle_at_subject(perspectives[index].center(), focus, perspectives[i].center());
+    if (angle >= kMinAngle) ranked.emplace_back(angle, i);
+  }
+  std::sort(ranked.begin(), ranked.end());
+  ranked.resize(std::min(ranked.size(), kNeighbours));
+  std::vector<std::size_t> neighbours;
+  for (const auto& [angle, i] : ranked) neighbours.push_back(i);
+  return neighbours;
+}
+
+DepthMap estimate_depth(const Perspective& perspective,
+                        const std::vector<const Perspective*>& others,
+                        const Eigen::Vector3d& focus) {
+  const SmallPicture picture = small_picture(perspective);
+  std::vector<SmallPicture> pictures;
+  for (const Perspective* other : others) pictures.push_back(small_picture(*other));
+  std::vector<const SmallPicture*> compared;
+  for (const SmallPicture& other : pictures) compared.push_back(&other);
+
+  const double distance = (focus - perspective.center()).norm();
+  const CostVolume costs(picture, compared, kNearest / distance, kDepths);
+  const CostVolume aggregated = costs.aggregated(picture);
+  DepthMap map{picture.camera, {}, {}};
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      const double index =
+          others.empty() ? (kDepths - 1) / kNearest : least(aggregated.at(x, y), kDepths);
+      const float cost = costs.at(x, y)[std::lround(index)];
+      map.inverse_depth.push_back(static_cast<float>(costs.inverse_depth(index)));
+      map.confidence.push_back(std::min(1.0F, std::exp(-cost / kCostOfDoubt) + kLeastConfidence));
+    }
+  }
+  return map;
+}
+
+}  // namespace lumibox::render

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "geometry/camera.h"
+#include "lightfield/perspective.h"
+
+namespace lumibox::render {
+
+/// The scene's shape as a perspective sees it, in its camera's frame, on a grid much coarser than
+/// its picture.
+struct DepthMap {
+  geometry::Camera camera;           ///< pinhole; its pixels are the grid
+  std::vector<float> inverse_depth;  ///< along the optical axis, 1 / world units, row by row
+  std::vector<float> confidence;     ///< (0, 1]: how well the pictures agree there
+};
+
+/// Indices of the perspectives whose pictures tell the depth in that of `index`: the nearest by
+/// angle at S that lie far enough away for parallax; at most four.
+std::vector<std::size_t> depth_neighbours(const std::vector<lightfield::Perspective>& perspectives,
+                                          std::size_t index, const Eigen::Vector3d& focus);
+
+/// Depth of a perspective's pixels from the pictures of others, by a plane sweep; `focus` is what
+/// lies in the middle of the range searched. Without others everything is as far as the focus.
+DepthMap estimate_depth(const lightfield::Perspective& perspective,
+                        const std::vector<const lightfield::Perspective*>& others,
+                        const Eigen::Vector3d& focus);
+
+}  // namespace lumibox::render

@@ -1,0 +1,114 @@
+#include "render/proxy_geometry.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "geometry/robust.h"
+#include "lightfield/light_field.h"
+#include "render/blending.h"
+#include "render/depth_grid.h"
+
+namespace lumibox::render {
+namespace {
+
+using lightfield::Perspective;
+using Picture = std::shared_ptr<const hal::Image>;
+
+constexpr std::size_t kMaxMaps = 512;
+constexpr std::size_t kMapsOfView = 4;  // more blur the shape
+constexpr int kPicturesOfView = 12;     // on a shape; the far ones hardly count
+constexpr std::size_t kMinPoints = 20;
+constexpr double kStray = 0.02;  // share of points that may be wrong, at either end
+
+}  // namespace
+
+/// A depth map and the pictures that it was told by, its own first. A map stays as it is when poses
+/// are corrected a little: it moves with its perspective.
+struct ProxyGeometry::Entry {
+  std::vector<std::weak_ptr<const hal::Image>> pictures;
+  std::shared_ptr<const DepthMap> map;
+
+  bool is_of(const std::vector<Picture>& wanted) const {
+    return std::equal(pictures.begin(), pictures.end(), wanted.begin(), wanted.end(),
+                      [](const auto& a, const Picture& b) { return a.lock() == b; });
+  }
+};
+
+ProxyGeometry::ProxyGeometry(std::vector<Eigen::Vector3d> points) : points_(std::move(points)) {}
+ProxyGeometry::~ProxyGeometry() = default;
+
+Settings ProxyGeometry::fit(Settings settings, Geometry geometry, const View& view,
+                            const std::vector<Perspective>& perspectives) {
+  if (geometry == Geometry::Focal) {
+    settings.focus = focal_point(view, settings.focus);
+  } else if (geometry == Geometry::Mesh) {
+    settings.shape = shape_of(view, perspectives, settings.focus);
+    settings.k = std::min(settings.k, kPicturesOfView);
+  }
+  return settings;
+}
+
+Eigen::Vector3d ProxyGeometry::focal_point(const View& view,
+                                           const Eigen::Vector3d& otherwise) const {
+  const geometry::Pose camera_from_world = view.world_from_camera.inverse();
+  std::vector<double> inverse_depths;
+  for (const Eigen::Vector3d& point : points_) {
+    const Eigen::Vector3d seen = camera_from_world * point;
+    const auto pixel = view.camera.project(seen);
+    if (pixel && view.camera.contains(*pixel)) inverse_depths.push_back(1.0 / seen.z());
+  }
+  if (inverse_depths.size() < kMinPoints) return otherwise;
+  const double farthest = geometry::quantile(inverse_depths, kStray);
+  const double nearest = geometry::quantile(std::move(inverse_depths), 1.0 - kStray);
+  return view.world_from_camera * Eigen::Vector3d(0.0, 0.0, 2.0 / (farthest + nearest));
+}
+
+std::shared_ptr<const DepthGrid> ProxyGeometry::shape_of(
+    const View& view, const std::vector<Perspective>& perspectives, const Eigen::Vector3d& focus) {
+  std::vector<std::pair<double, std::size_t>> ranked;
+  for (std::size_t i = 0; i < perspectives.size(); ++i) {
+    if (!perspectives[i].color || !perspectives[i].camera) continue;
+    ranked.emplace_back(lightfield::angle_at_subject(view.world_from_camera.translation, focus,
+                                                     perspectives[i].center()),
+                        i);
+  }
+  std::sort(ranked.begin(), ranked.end());
+  const std::size_t count = std::min(kMapsOfView, ranked.size());
+  std::vector<double> penalties;
+  for (std::size_t i = 0; i < count; ++i) penalties.push_back(ranked[i].first);
+  const double limit = count < ranked.size() ? ranked[count].first : limit_beyond(penalties);
+  const std::vector<double> weights = wide_weights(penalties, limit, 1.0);
+  std::vector<DepthGrid::Source> sources;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t index = ranked[i].second;
+    if (weights[i] <= 0.0) continue;
+    sources.push_back(
+        {map_of(perspectives, index, focus), perspectives[index].world_from_camera, weights[i]});
+  }
+  const Eigen::Vector3d eye = view.world_from_camera.translation;
+  return std::make_shared<DepthGrid>(view, sources, 1.0 / std::max((focus - eye).norm(), 1e-9));
+}
+
+std::shared_ptr<const DepthMap> ProxyGeometry::map_of(const std::vector<Perspective>& perspectives,
+                                                      std::size_t index,
+                                                      const Eigen::Vector3d& focus) {
+  std::vector<Picture> pictures{perspectives[index].color};
+  std::vector<const Perspective*> others;
+  for (const std::size_t i : depth_neighbours(perspectives, index, focus)) {
+    others.push_back(&perspectives[i]);
+    pictures.push_back(perspectives[i].color);
+  }
+  const auto known =
+      std::ranges::find_if(entries_, [&](const Entry& entry) { return entry.is_of(pictures); });
+  if (known != entries_.end()) {
+    std::rotate(known, known + 1, entries_.end());
+    return entries_.back().map;
+  }
+  if (entries_.size() == kMaxMaps) entries_.erase(entries_.begin());
+  entries_.push_back(
+      {{pictures.begin(), pictures.end()},
+       std::make_shared<DepthMap>(estimate_depth(perspectives[index], others, focus))});
+  return entries_.back().map;
+}
+
+}  // namespace lumibox::render
