@@ -16,7 +16,7 @@ using Picture = std::shared_ptr<const hal::Image>;
 
 constexpr std::size_t kMaxMaps = 512;
 constexpr std::size_t kMapsOfView = 4;  // more blur the shape
-constexpr int kPicturesOfView = 12;     // on a shape; the far ones hardly count
+constexpr int kPicturesOfView = 8;      // on a shape; the far ones hardly count
 constexpr std::size_t kMinPoints = 20;
 constexpr double kStray = 0.02;  // share of points that may be wrong, at either end
 

@@ -35,6 +35,7 @@ std::optional<Eigen::Vector3d> intersect(const Ray& ray, const Eigen::Vector3d& 
 struct Contribution {
   Eigen::Vector3d color = Eigen::Vector3d::Zero();
   double weight = 0.0;
+  double closeness = 1.0;  ///< on a shape, see render::closeness
 };
 
 Contribution contribution(const Ray& ray, const Layer& layer,
@@ -61,30 +62,23 @@ Contribution contribution_on_shape(const Eigen::Vector3d& pixel_of_view, double 
   const hal::Image& image = *perspective.color;
   const double fade = feather(*pixel, image.width(), image.height(), settings.feather_px);
   if (fade <= 0.0) return {};
-  return {sample_bilinear(image, *pixel),
-          layer.weight * fade * closeness(ray_of_view, ray_of_source)};
+  return {sample_bilinear(image, *pixel), layer.weight * fade,
+          closeness(ray_of_view, ray_of_source)};
 }
 
-/// Weighted mean of what sees a shape, black where nothing does.
-Eigen::Vector3d blend_on_shape(const std::vector<Contribution>& contributions) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double total = 0.0;
-  for (const Contribution& c : contributions) {
-    sum += c.weight * c.color;
-    total += c.weight;
-  }
-  return total > 0.0 ? Eigen::Vector3d(sum / total) : sum;
-}
-
-/// Thesis 3.2, wide aperture: weighted mean.
+/// Thesis 3.2, wide aperture: weighted mean; on a shape the closer ones count more.
 Eigen::Vector3d blend_wide(const std::vector<Contribution>& contributions) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double close_total = 0.0;
   double total = 0.0;
   for (const Contribution& c : contributions) {
-    sum += c.weight * c.color;
+    sum += c.closeness * c.weight * c.color;
+    close_total += c.closeness * c.weight;
     total += c.weight;
   }
-  return sum / std::max(total, least_total_weight(contributions.size()));
+  if (!(close_total > 0.0)) return Eigen::Vector3d::Zero();
+  const double covered = total / std::max(total, least_total_weight(contributions.size()));
+  return sum * (covered / close_total);
 }
 
 /// Thesis 3.2, small aperture: far to near, each "over" what is there.
@@ -114,8 +108,7 @@ hal::Image render_reference(const View& view,
                                                                   layers[i], perspective, settings)
                                           : contribution(ray, layers[i], perspective, settings);
       }
-      const Eigen::Vector3d color = settings.shape ? blend_on_shape(contributions)
-                                    : settings.aperture == Aperture::Wide
+      const Eigen::Vector3d color = settings.shape || settings.aperture == Aperture::Wide
                                         ? blend_wide(contributions)
                                         : blend_small(contributions);
       for (int channel = 0; channel < 3; ++channel) {

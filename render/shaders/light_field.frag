@@ -21,7 +21,7 @@ layout(std140) uniform Layers {
 };
 uniform int layer_count;
 uniform vec2 texel_size;           // 1 / size of the texture array
-uniform float least_total_weight;  // wide aperture: smallest divisor
+uniform float least_total_weight;  // smallest divisor of a mean
 uniform float stop;                // small aperture: transmittance at which a pixel is done
 uniform sampler2DArray pictures;
 #ifdef SHAPE
@@ -47,8 +47,9 @@ float inverse_depth() {
 }
 #endif
 
-// Weight of layer i at this pixel after feathering; 0 where it shows nothing.
-float seen(int i, float inverse_depth, out vec2 pixel) {
+// Weight of layer i at this pixel after feathering; 0 where it shows nothing. With SHAPE, `near` is
+// its closeness there.
+float seen(int i, float inverse_depth, out vec2 pixel, out float near) {
   vec4 source = layers[i].from_x * gl_FragCoord.x + layers[i].from_y * gl_FragCoord.y +
                 layers[i].from_1;
 #ifdef SHAPE
@@ -67,11 +68,12 @@ float seen(int i, float inverse_depth, out vec2 pixel) {
   vec2 inside = min(pixel, layers[i].picture.xy - pixel) * layers[i].picture.w;
   vec2 fade = clamp(inside, 0.0, 1.0);
   fade = fade * fade * (3.0 - 2.0 * fade);
-  float weight = layers[i].blend.x * fade.x * fade.y;
 #ifdef SHAPE
-  weight *= closeness(ray_of_view, source.xyz);
+  near = closeness(ray_of_view, source.xyz);
+#else
+  near = 1.0;
 #endif
-  return visible ? weight : 0.0;
+  return visible ? layers[i].blend.x * fade.x * fade.y : 0.0;
 }
 
 vec3 picture_at(int i, vec2 pixel) {
@@ -90,7 +92,8 @@ void main() {
   float transmittance = 1.0;
   for (int i = 0; i < layer_count && transmittance > stop; ++i) {
     vec2 pixel;
-    float alpha = seen(i, depth, pixel);
+    float near;
+    float alpha = seen(i, depth, pixel, near);
     if (alpha > 0.0) {
       sum += transmittance * alpha * picture_at(i, pixel);
       transmittance *= 1.0 - alpha;
@@ -99,14 +102,18 @@ void main() {
   color = vec4(sum, 1.0);
 #else
   float total = 0.0;
+  float near_total = 0.0;
   for (int i = 0; i < layer_count; ++i) {
     vec2 pixel;
-    float weight = seen(i, depth, pixel);
+    float near;
+    float weight = seen(i, depth, pixel, near);
     if (weight > 0.0) {
-      sum += weight * picture_at(i, pixel);
+      sum += near * weight * picture_at(i, pixel);
+      near_total += near * weight;
       total += weight;
     }
   }
-  color = vec4(sum / max(total, least_total_weight), 1.0);
+  float covered = total / max(total, least_total_weight);
+  color = vec4(near_total > 0.0 ? sum * (covered / near_total) : vec3(0.0), 1.0);
 #endif
 }

@@ -27,11 +27,13 @@ TEST(LeaveOneOut, ComparesEachViewWithoutItself) {
       },
       [&](std::size_t index) { EXPECT_EQ(index, views++); });
   EXPECT_EQ(views, 5U);
-  ASSERT_EQ(results.size(), 4U);
+  ASSERT_EQ(results.size(), 6U);
   EXPECT_EQ(results[0].method, "nearest");
   EXPECT_EQ(results[1].method, "plane-small");
   EXPECT_EQ(results[2].method, "plane-wide");
   EXPECT_EQ(results[3].method, "plane-sharp");
+  EXPECT_EQ(results[4].method, "focal");
+  EXPECT_EQ(results[5].method, "mesh");
   for (const MethodQuality& result : results) {
     ASSERT_EQ(result.views.size(), 5U);
     double sum = 0.0;
@@ -62,7 +64,7 @@ TEST(LeaveOneOut, FewPerspectivesAreNoError) {
                                   const Method& method) {
     return render_reference(view, others, method.settings);
   };
-  EXPECT_EQ(leave_one_out({}, kSubject, {}, reference).size(), 4U);
+  EXPECT_EQ(leave_one_out({}, kSubject, {}, reference).size(), 6U);
   const auto one =
       test::random_capture(test::textured_ball(1.0), test::make_camera(48, 36), 1, 4.0, 0.3, 9);
   EXPECT_EQ(leave_one_out(one, kSubject, {}, reference)[0].views.size(), 1U);

@@ -9,6 +9,7 @@
 
 #include "render/gl_test.h"
 #include "render/image_quality.h"
+#include "render/proxy_geometry.h"
 #include "render/ray_cast.h"
 #include "render/reference.h"
 
@@ -80,6 +81,26 @@ TEST_F(RendererTest, AgreesWithTheReference) {
           EXPECT_LE(largest_difference(drawn, expected), 4);
         }
       }
+    }
+  }
+}
+
+TEST_F(RendererTest, AgreesWithTheReferenceOnAShape) {
+  for (const geometry::Camera& camera :
+       {make_camera(160, 120), make_camera(160, 120, true), test::make_fisheye_camera(160, 120)}) {
+    const auto perspectives =
+        test::random_capture(test::textured_ball(1.0), camera, 10, 4.0, 0.4, 3);
+    ProxyGeometry proxy({});
+    for (const int k : {1, 40}) {
+      Settings settings;
+      settings.k = k;
+      settings.focus = Eigen::Vector3d(0.1, 0.0, 0.2);
+      const View view = view_from({0.3, 0.2, -3.6}, 0.2);
+      settings = proxy.fit(settings, Geometry::Mesh, view, perspectives);
+      EXPECT_LT(mean_difference(draw(view, perspectives, settings),
+                                render_reference(view, perspectives, settings)),
+                0.5)
+          << k;
     }
   }
 }
