@@ -84,7 +84,7 @@ void say_quality(const hal::Scene& scene, const Loop& loop) {
   }
   std::printf("%zu views between them, against the simulator's own, on the subject:\n", kViews);
   Painter painter(Exactness::Fast);
-  render::ProxyGeometry proxy(loop.moment().map.points());
+  render::ProxyGeometry proxy(loop.moment().map.points(), render::Estimating::AtOnce);
   for (const render::Method& method :
        render::compared_methods(loop.config().render, light_field.subject()->center)) {
     say_likeness(method, views, perspectives, proxy, painter);

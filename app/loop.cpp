@@ -29,7 +29,7 @@ Loop::Loop(Devices& devices, const config::Config& config, std::filesystem::path
       modes_(session_, camera_),
       gestures_(config.controls.long_press_s),
       metronome_(*devices.clock, config.loop.rate_hz),
-      screen_(*devices.display, camera_) {
+      screen_(*devices.display, camera_, threading.estimating) {
   if (saved) {
     resume(std::move(*saved));
   }

@@ -6,7 +6,7 @@
 
 #include "geometry/pose.h"
 #include "lightfield/perspective.h"
-#include "render/view.h"
+#include "render/proxy_geometry.h"
 
 namespace lumibox::app {
 
@@ -14,6 +14,7 @@ namespace lumibox::app {
 struct LightFieldPicture {
   std::vector<lightfield::Perspective> perspectives;
   render::Settings settings;
+  render::Geometry geometry = render::Geometry::Plane;
 };
 
 /// The coverage map of thesis 2.3.

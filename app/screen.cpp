@@ -13,10 +13,11 @@ constexpr float kLetterWidth = 0.6F;  // of the size: more than the mean of any 
 
 }  // namespace
 
-Screen::Screen(hal::Display& display, const geometry::Camera& live)
+Screen::Screen(hal::Display& display, const geometry::Camera& live, render::Estimating estimating)
     : display_(display),
       live_(live),
-      view_camera_(fitted_camera(live, display.width(), display.height())) {}
+      view_camera_(fitted_camera(live, display.width(), display.height())),
+      proxy_({}, estimating) {}
 
 void Screen::draw(const Picture& picture, const hal::Frame& frame) {
   const render::View view{view_camera_, picture.world_from_view.value_or(geometry::Pose{})};
@@ -36,7 +37,9 @@ void Screen::draw_backdrop(const Picture& picture, const hal::Frame& frame,
                            const render::View& view) {
   const unsigned framebuffer = display_.framebuffer();
   if (picture.light_field) {
-    renderer_.draw(view, picture.light_field->perspectives, picture.light_field->settings,
+    const LightFieldPicture& shown = *picture.light_field;
+    renderer_.draw(view, shown.perspectives,
+                   proxy_.fit(shown.settings, shown.geometry, view, shown.perspectives),
                    framebuffer);
   } else if (frame.color) {
     overlay_.draw_image(*frame.color, live_, view, 1.0F, framebuffer);

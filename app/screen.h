@@ -8,6 +8,7 @@
 #include "hal/display.h"
 #include "hal/frame.h"
 #include "render/overlay.h"
+#include "render/proxy_geometry.h"
 #include "render/renderer.h"
 
 namespace lumibox::app {
@@ -18,7 +19,7 @@ class Screen {
  public:
   /// `live` is the camera whose pictures are shown; they fill the display as far as their shape
   /// allows.
-  Screen(hal::Display& display, const geometry::Camera& live);
+  Screen(hal::Display& display, const geometry::Camera& live, render::Estimating estimating);
 
   /// Draws without presenting. `frame` is the newest one; its picture may be null.
   void draw(const Picture& picture, const hal::Frame& frame);
@@ -34,6 +35,7 @@ class Screen {
   geometry::Camera live_;
   geometry::Camera view_camera_;  ///< without distortion, of the display's size
   render::Renderer renderer_;
+  render::ProxyGeometry proxy_;
   render::Overlay overlay_;
 };
 

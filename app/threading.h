@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lightfield/store.h"
+#include "render/depth_maps.h"
 #include "tracking/tracker.h"
 
 namespace lumibox::app {
@@ -9,8 +10,11 @@ namespace lumibox::app {
 struct Threading {
   tracking::Mapping mapping = tracking::Mapping::Threaded;
   lightfield::Writing writing = lightfield::Writing::Threaded;
+  render::Estimating estimating = render::Estimating::Meanwhile;
 };
-inline constexpr Threading kThreaded{tracking::Mapping::Threaded, lightfield::Writing::Threaded};
-inline constexpr Threading kLockstep{tracking::Mapping::Lockstep, lightfield::Writing::Inline};
+inline constexpr Threading kThreaded{tracking::Mapping::Threaded, lightfield::Writing::Threaded,
+                                     render::Estimating::Meanwhile};
+inline constexpr Threading kLockstep{tracking::Mapping::Lockstep, lightfield::Writing::Inline,
+                                     render::Estimating::AtOnce};
 
 }  // namespace lumibox::app

@@ -45,6 +45,7 @@ struct Capture {
 };
 
 struct Render {
+  std::string geometry = "mesh";       ///< that the small aperture shows pictures on
   int k = 40;                          ///< perspectives blended (thesis 3: 40 to 60)
   int small_aperture_max_k = 40;       ///< cap of k in small aperture mode (thesis 3.2)
   double exponent = 2.0;               ///< of the weights in wide aperture mode (thesis 3.2)

@@ -49,8 +49,8 @@ double small_alpha(std::size_t rank, std::size_t k, double alpha) {
   return alpha * std::min(1.0, from_farthest / half);
 }
 
-double least_total_weight(std::size_t layers) {
-  return 0.5 / static_cast<double>(std::max<std::size_t>(layers, 1));
+double least_total_weight(std::size_t layers, bool on_shape) {
+  return (on_shape ? 0.05 : 0.5) / static_cast<double>(std::max<std::size_t>(layers, 1));
 }
 
 double feather_width(int width, int height, double feather_px) {

@@ -12,9 +12,7 @@ namespace lumibox::render {
 namespace {
 
 using lightfield::Perspective;
-using Picture = std::shared_ptr<const hal::Image>;
 
-constexpr std::size_t kMaxMaps = 512;
 constexpr std::size_t kMapsOfView = 4;  // more blur the shape
 constexpr int kPicturesOfView = 8;      // on a shape; the far ones hardly count
 constexpr std::size_t kMinPoints = 20;
@@ -22,20 +20,13 @@ constexpr double kStray = 0.02;  // share of points that may be wrong, at either
 
 }  // namespace
 
-/// A depth map and the pictures that it was told by, its own first. A map stays as it is when poses
-/// are corrected a little: it moves with its perspective.
-struct ProxyGeometry::Entry {
-  std::vector<std::weak_ptr<const hal::Image>> pictures;
-  std::shared_ptr<const DepthMap> map;
+Geometry geometry_named(const std::string& name) {
+  if (name == "focal") return Geometry::Focal;
+  return name == "mesh" ? Geometry::Mesh : Geometry::Plane;
+}
 
-  bool is_of(const std::vector<Picture>& wanted) const {
-    return std::equal(pictures.begin(), pictures.end(), wanted.begin(), wanted.end(),
-                      [](const auto& a, const Picture& b) { return a.lock() == b; });
-  }
-};
-
-ProxyGeometry::ProxyGeometry(std::vector<Eigen::Vector3d> points) : points_(std::move(points)) {}
-ProxyGeometry::~ProxyGeometry() = default;
+ProxyGeometry::ProxyGeometry(std::vector<Eigen::Vector3d> points, Estimating estimating)
+    : points_(std::move(points)), maps_(estimating) {}
 
 Settings ProxyGeometry::fit(Settings settings, Geometry geometry, const View& view,
                             const std::vector<Perspective>& perspectives) {
@@ -43,7 +34,7 @@ Settings ProxyGeometry::fit(Settings settings, Geometry geometry, const View& vi
     settings.focus = focal_point(view, settings.focus);
   } else if (geometry == Geometry::Mesh) {
     settings.shape = shape_of(view, perspectives, settings.focus);
-    settings.k = std::min(settings.k, kPicturesOfView);
+    if (settings.shape) settings.k = std::min(settings.k, kPicturesOfView);
   }
   return settings;
 }
@@ -82,33 +73,13 @@ std::shared_ptr<const DepthGrid> ProxyGeometry::shape_of(
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t index = ranked[i].second;
     if (weights[i] <= 0.0) continue;
-    sources.push_back(
-        {map_of(perspectives, index, focus), perspectives[index].world_from_camera, weights[i]});
+    if (auto map = maps_.map_of(perspectives, index, focus)) {
+      sources.push_back({std::move(map), perspectives[index].world_from_camera, weights[i]});
+    }
   }
+  if (sources.empty()) return nullptr;
   const Eigen::Vector3d eye = view.world_from_camera.translation;
   return std::make_shared<DepthGrid>(view, sources, 1.0 / std::max((focus - eye).norm(), 1e-9));
-}
-
-std::shared_ptr<const DepthMap> ProxyGeometry::map_of(const std::vector<Perspective>& perspectives,
-                                                      std::size_t index,
-                                                      const Eigen::Vector3d& focus) {
-  std::vector<Picture> pictures{perspectives[index].color};
-  std::vector<const Perspective*> others;
-  for (const std::size_t i : depth_neighbours(perspectives, index, focus)) {
-    others.push_back(&perspectives[i]);
-    pictures.push_back(perspectives[i].color);
-  }
-  const auto known =
-      std::ranges::find_if(entries_, [&](const Entry& entry) { return entry.is_of(pictures); });
-  if (known != entries_.end()) {
-    std::rotate(known, known + 1, entries_.end());
-    return entries_.back().map;
-  }
-  if (entries_.size() == kMaxMaps) entries_.erase(entries_.begin());
-  entries_.push_back(
-      {{pictures.begin(), pictures.end()},
-       std::make_shared<DepthMap>(estimate_depth(perspectives[index], others, focus))});
-  return entries_.back().map;
 }
 
 }  // namespace lumibox::render

@@ -2,14 +2,14 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "lightfield/perspective.h"
+#include "render/depth_maps.h"
 #include "render/view.h"
 
 namespace lumibox::render {
-
-struct DepthMap;
 
 /// What pictures are projected onto.
 enum class Geometry {
@@ -18,15 +18,14 @@ enum class Geometry {
   Mesh,   ///< the scene's shape, told by the pictures themselves
 };
 
-/// Makes settings fit a view, with what is known of the scene. Depth maps are estimated where they
-/// are first needed, a fifth of a second each, and kept.
+/// Of "plane", "focal" and "mesh".
+Geometry geometry_named(const std::string& name);
+
+/// Makes settings fit a view, with what is known of the scene.
 class ProxyGeometry {
  public:
   /// `points`: of the scene, in world; may be empty.
-  explicit ProxyGeometry(std::vector<Eigen::Vector3d> points);
-  ~ProxyGeometry();
-  ProxyGeometry(const ProxyGeometry&) = delete;
-  ProxyGeometry& operator=(const ProxyGeometry&) = delete;
+  ProxyGeometry(std::vector<Eigen::Vector3d> points, Estimating estimating);
 
   /// Focal: `settings.focus` moves to the optical axis, to the harmonic mean of the depths of the
   /// nearest and the farthest point seen (Chai et al., "Plenoptic sampling", SIGGRAPH 2000);
@@ -35,16 +34,13 @@ class ProxyGeometry {
                const std::vector<lightfield::Perspective>& perspectives);
 
  private:
-  struct Entry;
   Eigen::Vector3d focal_point(const View& view, const Eigen::Vector3d& otherwise) const;
   std::shared_ptr<const DepthGrid> shape_of(
       const View& view, const std::vector<lightfield::Perspective>& perspectives,
       const Eigen::Vector3d& focus);
-  std::shared_ptr<const DepthMap> map_of(const std::vector<lightfield::Perspective>& perspectives,
-                                         std::size_t index, const Eigen::Vector3d& focus);
 
   std::vector<Eigen::Vector3d> points_;
-  std::vector<Entry> entries_;  ///< used last come last
+  DepthMaps maps_;
 };
 
 }  // namespace lumibox::render

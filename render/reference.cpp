@@ -67,7 +67,7 @@ Contribution contribution_on_shape(const Eigen::Vector3d& pixel_of_view, double 
 }
 
 /// Thesis 3.2, wide aperture: weighted mean; on a shape the closer ones count more.
-Eigen::Vector3d blend_wide(const std::vector<Contribution>& contributions) {
+Eigen::Vector3d blend_wide(const std::vector<Contribution>& contributions, bool on_shape) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double close_total = 0.0;
   double total = 0.0;
@@ -77,7 +77,8 @@ Eigen::Vector3d blend_wide(const std::vector<Contribution>& contributions) {
     total += c.weight;
   }
   if (!(close_total > 0.0)) return Eigen::Vector3d::Zero();
-  const double covered = total / std::max(total, least_total_weight(contributions.size()));
+  const double covered =
+      total / std::max(total, least_total_weight(contributions.size(), on_shape));
   return sum * (covered / close_total);
 }
 
@@ -109,7 +110,7 @@ hal::Image render_reference(const View& view,
                                           : contribution(ray, layers[i], perspective, settings);
       }
       const Eigen::Vector3d color = settings.shape || settings.aperture == Aperture::Wide
-                                        ? blend_wide(contributions)
+                                        ? blend_wide(contributions, settings.shape != nullptr)
                                         : blend_small(contributions);
       for (int channel = 0; channel < 3; ++channel) {
         image.at(u, v)[channel] = static_cast<std::uint8_t>(std::lround(color[channel]));

@@ -155,7 +155,8 @@ class Renderer::Impl {
     glUniform1i(variant.layer_count, static_cast<GLint>(layers.size()));
     glUniform2f(variant.texel_size, 1.0F / static_cast<float>(std::max(1, cache_.width())),
                 1.0F / static_cast<float>(std::max(1, cache_.height())));
-    glUniform1f(variant.least_total_weight, static_cast<float>(least_total_weight(planned)));
+    glUniform1f(variant.least_total_weight,
+                static_cast<float>(least_total_weight(planned, kind.shape)));
     glUniform1f(variant.stop, static_cast<float>(settings.small_aperture_stop));
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, uniforms_.name());
     glActiveTexture(GL_TEXTURE0);

@@ -164,9 +164,10 @@ void add_render(CLI::App& app) {
   command
       ->add_option("--geometry", options->geometry,
                    "what the pictures are projected onto: a plane through the subject, a plane at "
-                   "the depth that serves the view best, or the scene's shape")
+                   "the depth that serves the view best, or the scene's shape (default: "
+                   "render.geometry, but plane with --mode wide)")
       ->check(CLI::IsMember({"plane", "focal", "mesh"}))
-      ->capture_default_str();
+      ->type_name("NAME");
   command
       ->add_option("--calib", options->calibration,
                    "calib.txt or camera profile (.toml) with the intrinsics of the views "

@@ -49,7 +49,7 @@ struct RenderOptions {
   std::filesystem::path views;
   std::filesystem::path out;
   std::string mode = "small";
-  std::string geometry = "plane";
+  std::optional<std::string> geometry;
   std::optional<int> k;
   std::optional<double> exponent;
   std::optional<std::filesystem::path> calibration;

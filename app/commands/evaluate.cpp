@@ -73,7 +73,7 @@ void evaluate(const EvaluateOptions& options) {
     make_folder(*options.pictures);
   }
   Painter painter(options.reference ? Exactness::Exact : Exactness::Fast);
-  render::ProxyGeometry proxy(capture.points);
+  render::ProxyGeometry proxy(capture.points, render::Estimating::AtOnce);
   std::size_t current = 0;
   const auto render_view = [&](const render::View& view,
                                const std::vector<lightfield::Perspective>& others,

@@ -25,13 +25,15 @@ render::Settings settings_of(const RenderOptions& options, const lightfield::Sph
   return render::settings_from(render, aperture, subject.center);
 }
 
+/// A wide aperture is focused on a plane; the small one shows what the configuration says.
 render::Geometry geometry_of(const RenderOptions& options) {
-  if (options.geometry == "plane") return render::Geometry::Plane;
-  if (options.geometry == "focal") return render::Geometry::Focal;
-  if (options.mode == "wide") {
-    throw config::InputError("--geometry mesh: is sharp everywhere; a wide aperture needs a plane");
+  const bool wide = options.mode == "wide";
+  if (wide && options.geometry == "mesh") {
+    throw config::InputError(
+        "--geometry mesh: is sharp everywhere; --mode wide focuses on a plane: plane or focal");
   }
-  return render::Geometry::Mesh;
+  const std::string usual = wide ? "plane" : load_config(options.sources).render.geometry;
+  return render::geometry_named(options.geometry.value_or(usual));
 }
 
 }  // namespace
@@ -53,7 +55,7 @@ void render_views(const RenderOptions& options) {
       options.calibration ? geometry::Camera(hal::read_calibration(*options.calibration))
                           : *perspectives.front().camera;
   const render::Geometry geometry = geometry_of(options);
-  render::ProxyGeometry proxy(capture.points);
+  render::ProxyGeometry proxy(capture.points, render::Estimating::AtOnce);
   Painter painter(options.reference ? Exactness::Exact : Exactness::Fast);
   make_folder(options.out);
   Progress progress("rendering", static_cast<std::int64_t>(views.size()));

@@ -72,9 +72,10 @@ Picture ReviewMode::draw(const Moment& moment) const {
     return picture;
   }
   picture.world_from_view = world_from_view_;
-  picture.light_field =
-      LightFieldPicture{light_field.perspectives(),
-                        render::settings_from(session_.config.render, aperture_, focus())};
+  const config::Render& options = session_.config.render;
+  picture.light_field = LightFieldPicture{
+      light_field.perspectives(), render::settings_from(options, aperture_, focus()),
+      wide ? render::Geometry::Plane : render::geometry_named(options.geometry)};
   return picture;
 }
 

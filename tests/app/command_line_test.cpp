@@ -141,9 +141,10 @@ TEST(CommandLine, BadSettingsAreNamed) {
 }
 
 TEST(CommandLine, OffersOnlyWhatItHas) {
-  const Outcome geometry = lumibox("render c --views v --out o --geometry mesh");
+  const Outcome geometry = lumibox("render c --views v --out o --geometry cube");
   EXPECT_EQ(geometry.status, 2);
-  EXPECT_THAT(geometry.err, AllOf(HasSubstr("--geometry"), HasSubstr("mesh not in {plane}")));
+  EXPECT_THAT(geometry.err,
+              AllOf(HasSubstr("--geometry"), HasSubstr("cube not in {plane,focal,mesh}")));
   const Outcome bench = lumibox("bench rendering --out o");
   EXPECT_EQ(bench.status, 2);
   EXPECT_THAT(bench.err, HasSubstr("rendering not in {tracking,simulation}"));

@@ -90,7 +90,7 @@ TEST_F(RendererTest, AgreesWithTheReferenceOnAShape) {
        {make_camera(160, 120), make_camera(160, 120, true), test::make_fisheye_camera(160, 120)}) {
     const auto perspectives =
         test::random_capture(test::textured_ball(1.0), camera, 10, 4.0, 0.4, 3);
-    ProxyGeometry proxy({});
+    ProxyGeometry proxy({}, Estimating::AtOnce);
     for (const int k : {1, 40}) {
       Settings settings;
       settings.k = k;

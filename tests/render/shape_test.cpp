@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <thread>
 
 #include "geometry/robust.h"
 #include "geometry/rotation.h"
@@ -99,6 +100,45 @@ TEST(DepthMap, NeighboursAreTheNearestThatShowParallax) {
   EXPECT_EQ(depth_neighbours(perspectives, 0, kSubject), (std::vector<std::size_t>{3, 4, 5, 6}));
 }
 
+std::shared_ptr<const DepthMap> wait_for(DepthMaps& maps,
+                                         const std::vector<Perspective>& perspectives,
+                                         const std::shared_ptr<const DepthMap>& other_than) {
+  while (true) {
+    auto map = maps.map_of(perspectives, 0, kSubject);
+    if (map != other_than) return map;
+    std::this_thread::yield();
+  }
+}
+
+TEST(DepthMaps, MeanwhileGivesWhatAtOnceGives) {
+  auto perspectives = around_a_ball(test::make_camera(48, 36), 4);
+  DepthMaps at_once(Estimating::AtOnce);
+  const auto wanted = at_once.map_of(perspectives, 0, kSubject);
+  EXPECT_EQ(at_once.map_of(perspectives, 0, kSubject), wanted) << "it is kept";
+  DepthMaps meanwhile(Estimating::Meanwhile);
+  const auto found = wait_for(meanwhile, perspectives, nullptr);
+  EXPECT_EQ(found->inverse_depth, wanted->inverse_depth);
+  EXPECT_EQ(found->confidence, wanted->confidence);
+
+  perspectives.push_back(around_a_ball(test::make_camera(48, 36), 5).back());
+  const auto better = wait_for(meanwhile, perspectives, found);  // until then the older one
+  EXPECT_EQ(better->inverse_depth, at_once.map_of(perspectives, 0, kSubject)->inverse_depth);
+}
+
+TEST(DepthMaps, AMapStaysWhenItsPerspectiveMoves) {
+  auto perspectives = around_a_ball(test::make_camera(48, 36), 4);
+  DepthMaps maps(Estimating::AtOnce);
+  const auto before = maps.map_of(perspectives, 0, kSubject);
+  for (Perspective& p : perspectives) p.world_from_camera.translation.x() += 1e-3;
+  EXPECT_EQ(maps.map_of(perspectives, 0, kSubject), before);
+}
+
+TEST(DepthMaps, EndsWhileItWorks) {
+  const auto perspectives = around_a_ball(test::make_camera(192, 144), 5);
+  DepthMaps maps(Estimating::Meanwhile);
+  for (std::size_t i = 0; i < 5; ++i) maps.map_of(perspectives, i, kSubject);
+}
+
 TEST(DepthGrid, WithoutMapsIsTheFallback) {
   const DepthGrid grid(view_from({0.0, 0.0, -4.0}), {}, 0.25);
   for (const float rho : grid.inverse_depths()) EXPECT_EQ(rho, 0.25F);
@@ -128,7 +168,7 @@ TEST(DepthGrid, WhatIsNearerCountsMore) {
 
 TEST(DepthGrid, IsBilinearBetweenCorners) {
   const auto perspectives = around_a_ball(test::make_camera(96, 72), 5);
-  ProxyGeometry proxy({});
+  ProxyGeometry proxy({}, Estimating::AtOnce);
   Settings settings;
   settings.focus = kSubject;
   const View view = view_from({0.1, 0.1, -4.0});
@@ -160,11 +200,16 @@ TEST(ProxyGeometry, FocalPlaneLiesAtTheHarmonicMean) {
   Settings settings;
   settings.focus = kSubject;
   const View view = view_from({0.0, 0.0, -4.0});
-  const Settings fit = ProxyGeometry(points).fit(settings, Geometry::Focal, view, {});
+  const Settings fit =
+      ProxyGeometry(points, Estimating::AtOnce).fit(settings, Geometry::Focal, view, {});
   EXPECT_LT((fit.focus - Vector3d(0.0, 0.0, -4.0 + 2.0 / (1.0 / 2.0 + 1.0 / 8.0))).norm(), 1e-9);
   points.resize(5);
-  EXPECT_EQ(ProxyGeometry(points).fit(settings, Geometry::Focal, view, {}).focus, kSubject);
-  EXPECT_EQ(ProxyGeometry(points).fit(settings, Geometry::Plane, view, {}).shape, nullptr);
+  EXPECT_EQ(
+      ProxyGeometry(points, Estimating::AtOnce).fit(settings, Geometry::Focal, view, {}).focus,
+      kSubject);
+  EXPECT_EQ(
+      ProxyGeometry(points, Estimating::AtOnce).fit(settings, Geometry::Plane, view, {}).shape,
+      nullptr);
 }
 
 // Beside the ball's silhouette and before the far shell planes are wrong, the shape is not.
@@ -173,7 +218,7 @@ TEST(ProxyGeometry, AShapeIsLikerThanPlanes) {
   const View view{test::make_camera(192, 144), test::look_at({0.2, 0.15, -3.9}, kSubject)};
   const hal::Image truth =
       test::photograph(test::textured_ball(1.0), view.camera, view.world_from_camera);
-  ProxyGeometry proxy({});
+  ProxyGeometry proxy({}, Estimating::AtOnce);
   Settings settings;
   settings.focus = kSubject;
   const double plane = psnr(render_reference(view, perspectives, settings), truth);
@@ -188,7 +233,7 @@ TEST(ProxyGeometry, AShapeIsLikerThanPlanes) {
 // change: nothing jumps.
 TEST(ProxyGeometry, NothingPopsAsTheViewMoves) {
   const auto perspectives = around_a_ball(test::make_camera(96, 72), 12);
-  ProxyGeometry proxy({});
+  ProxyGeometry proxy({}, Estimating::AtOnce);
   Settings settings;
   settings.focus = kSubject;
   settings.k = 4;
@@ -242,7 +287,7 @@ TEST(ProxyGeometry, NothingPopsAsTheViewMoves) {
 TEST(ProxyGeometry, HardViewsStayFinite) {
   auto perspectives = around_a_ball(test::make_camera(48, 36), 6);
   perspectives.push_back(perspectives[2]);  // two at one centre
-  ProxyGeometry proxy({});
+  ProxyGeometry proxy({}, Estimating::AtOnce);
   Settings settings;
   settings.focus = kSubject;
   const Vector3d recorded = perspectives[1].center();
