@@ -1,6 +1,8 @@
 #include "app/attempts.h"
 
-#include "config/log.h"
+#include <stdexcept>
+
+#include "config/error.h"
 
 namespace lumibox::app {
 
@@ -8,17 +10,19 @@ void Attempts::attempt(const std::function<void()>& step) {
   try {
     step();
   } catch (const std::exception& error) {
-    if (first_) {
-      config::log_error(error.what());
-    } else {
-      first_ = std::current_exception();
-    }
+    all_ += first_ ? std::string("; ") + error.what() : error.what();
+    if (!first_) first_ = std::current_exception();
   }
 }
 
-void Attempts::rethrow_first() const {
-  if (first_) {
+void Attempts::rethrow() const {
+  if (!first_) return;
+  try {
     std::rethrow_exception(first_);
+  } catch (const config::InputError&) {
+    throw config::InputError(all_);
+  } catch (const std::exception&) {
+    throw std::runtime_error(all_);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <functional>
+#include <string>
 
 namespace lumibox::app {
 
@@ -9,14 +10,15 @@ namespace lumibox::app {
 /// the others keep.
 class Attempts {
  public:
-  /// Does a step. The first error is kept; those after it are said.
+  /// Does a step. What goes wrong is kept.
   void attempt(const std::function<void()>& step);
 
-  /// Throws the first error, if there was one.
-  void rethrow_first() const;
+  /// Throws what went wrong, if anything did: all in one line, as an error of the first one's kind.
+  void rethrow() const;
 
  private:
   std::exception_ptr first_;
+  std::string all_;  ///< what each says
 };
 
 }  // namespace lumibox::app

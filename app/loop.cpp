@@ -54,7 +54,7 @@ void Loop::run_and_finish(const std::function<bool()>& go_on) {
   Attempts attempts;
   attempts.attempt([&] { run(go_on); });
   attempts.attempt([&] { finish(); });
-  attempts.rethrow_first();
+  attempts.rethrow();
 }
 
 void Loop::tick() {

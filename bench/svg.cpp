@@ -2,10 +2,9 @@
 
 #include <fmt/core.h>
 
-#include <fstream>
 #include <iterator>
 
-#include "config/error.h"
+#include "config/output_file.h"
 
 namespace lumibox::bench {
 namespace {
@@ -118,12 +117,7 @@ std::string Svg::str() const {
 }
 
 void write_svg(const std::filesystem::path& file, const Svg& svg) {
-  std::ofstream stream(file);
-  stream << svg.str();
-  stream.close();
-  if (!stream) {
-    throw config::InputError(file, "cannot be written");
-  }
+  config::write_text(file, svg.str());
 }
 
 }  // namespace lumibox::bench

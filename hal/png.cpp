@@ -1,14 +1,13 @@
 #include <spng.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <string>
 
 #include "config/error.h"
+#include "config/output_file.h"
 #include "hal/image_codecs.h"
 
 namespace lumibox::hal {
@@ -20,10 +19,6 @@ struct FreeContext {
   void operator()(spng_ctx* context) const { spng_ctx_free(context); }
 };
 using Context = std::unique_ptr<spng_ctx, FreeContext>;
-
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
 
 void check(int status, const fs::path& name) {
   if (status != SPNG_OK) {
@@ -54,24 +49,6 @@ ImageInfo read_header(const Context& context, const fs::path& name) {
 bool has_end(Bytes bytes) {
   constexpr std::uint8_t kEnd[] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xAE, 0x42, 0x60, 0x82};
   return std::ranges::find_end(bytes, kEnd).size() == sizeof kEnd;
-}
-
-[[noreturn]] void throw_unwritable(const fs::path& path) {
-  const std::string reason = std::strerror(errno);
-  std::error_code ignored;
-  fs::remove(path, ignored);
-  throw config::InputError(path, "cannot be written: " + reason);
-}
-
-void write_file(const fs::path& path, Bytes bytes) {
-  std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "wb"));
-  if (!file) {
-    throw config::InputError(path, std::string("cannot be written: ") + std::strerror(errno));
-  }
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size() ||
-      std::fclose(file.release()) != 0) {
-    throw_unwritable(path);
-  }
 }
 
 }  // namespace
@@ -131,7 +108,7 @@ std::vector<std::uint8_t> encode_png(const Image& image) {
 }
 
 void write_png(const fs::path& path, const Image& image) {
-  write_file(path, encode_png(image));
+  config::write_bytes(path, encode_png(image));
 }
 
 }  // namespace lumibox::hal

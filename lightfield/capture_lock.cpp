@@ -30,7 +30,7 @@ FolderId id_of(const Descriptor& folder, const fs::path& path) {
 class LockedFolders {
  public:
   FolderId add(const fs::path& path) {
-    auto folder = std::make_unique<const Descriptor>(path, O_RDONLY | O_DIRECTORY);
+    auto folder = std::make_unique<const Descriptor>(path, O_RDONLY | O_DIRECTORY, path);
     const FolderId id = id_of(*folder, path);
     const std::lock_guard guard(mutex_);
     Locked& locked = locked_[id];

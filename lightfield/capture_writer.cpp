@@ -103,11 +103,17 @@ void CaptureWriter::set_points(const std::vector<Eigen::Vector3d>& points) {
   header_.has_points = true;
 }
 
-void CaptureWriter::set_map(const tracking::MapView& map, const geometry::Camera& camera) {
+std::optional<std::string> CaptureWriter::set_map(const tracking::MapView& map,
+                                                  const geometry::Camera& camera) {
   // A capture that is gone on with may hang on keyframes that went with the power, and this map
   // may have others of their numbers: what it hangs on now goes first.
   commit();
-  map_.write(map, camera, files_);
+  try {
+    map_.write(map, camera, files_);
+  } catch (const config::InputError& error) {
+    return error.what();
+  }
+  return std::nullopt;
 }
 
 void CaptureWriter::set_threshold(double radians) {

@@ -35,8 +35,9 @@ class CaptureWriter {
   void restore(const Perspective& perspective);
   void set_points(const std::vector<Eigen::Vector3d>& points);
 
-  /// Writes the map, after what perspectives hang on in it.
-  void set_map(const tracking::MapView& map, const geometry::Camera& camera);
+  /// Writes the map, after what perspectives hang on in it. What goes wrong with the map alone is
+  /// returned, as a sentence with the path: the data set is as good without it, and goes on.
+  std::optional<std::string> set_map(const tracking::MapView& map, const geometry::Camera& camera);
 
   /// Waits for the next commit, as moves do.
   void set_threshold(double radians);

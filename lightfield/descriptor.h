@@ -11,8 +11,8 @@ namespace lumibox::lightfield {
 /// An open file descriptor that closes itself.
 class Descriptor {
  public:
-  /// As open(2). Throws config::InputError if that fails.
-  Descriptor(const std::filesystem::path& path, int flags);
+  /// As open(2). Throws config::InputError if that fails, which calls the file `name`.
+  Descriptor(const std::filesystem::path& path, int flags, const std::filesystem::path& name);
   ~Descriptor();
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;

@@ -13,25 +13,26 @@ namespace lumibox::lightfield {
 
 namespace fs = std::filesystem;
 
-void DurableFiles::write_and_sync(const fs::path& path, std::span<const std::uint8_t> bytes) const {
-  const Descriptor file(path, O_WRONLY | O_CREAT | O_TRUNC);
-  note(Step::Opened, path);
+void DurableFiles::write_and_sync(const fs::path& aside, const fs::path& path,
+                                  std::span<const std::uint8_t> bytes) const {
+  const Descriptor file(aside, O_WRONLY | O_CREAT | O_TRUNC, path);
+  note(Step::Opened, aside);
   while (!bytes.empty()) {
     const ssize_t written = ::write(file.get(), bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) fail_at(path, "cannot write", errno);
     bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
-  note(Step::Written, path);
+  note(Step::Written, aside);
   if (::fsync(file.get()) != 0) fail_at(path, "cannot write", errno);
-  note(Step::FileSynced, path);
+  note(Step::FileSynced, aside);
 }
 
 void DurableFiles::write(const fs::path& path, std::span<const std::uint8_t> bytes) const {
   fs::path aside = path;
   aside += ".tmp";
   try {
-    write_and_sync(aside, bytes);
+    write_and_sync(aside, path, bytes);
     if (::rename(aside.c_str(), path.c_str()) != 0) fail_at(path, "cannot rename to it", errno);
   } catch (...) {
     ::unlink(aside.c_str());
@@ -47,7 +48,7 @@ void DurableFiles::write(const fs::path& path, std::string_view text) const {
 
 void DurableFiles::sync_folder(const fs::path& path) const {
   const fs::path folder = path.empty() ? fs::path(".") : path;
-  const Descriptor descriptor(folder, O_RDONLY | O_DIRECTORY);
+  const Descriptor descriptor(folder, O_RDONLY | O_DIRECTORY, folder);
   // EINVAL: a file system that has nothing to sync there, e.g. some network mounts.
   if (::fsync(descriptor.get()) != 0 && errno != EINVAL) fail_at(folder, "cannot sync", errno);
   note(Step::FolderSynced, folder);

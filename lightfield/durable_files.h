@@ -24,7 +24,7 @@ class DurableFiles {
   explicit DurableFiles(Observer observer) : observer_(std::move(observer)) {}
 
   /// Writes `path` + ".tmp", syncs it, renames it to `path`, syncs the folder. On an error the old
-  /// file, if any, is untouched and the temporary one is gone.
+  /// file, if any, is untouched and the temporary one, which no error speaks of, is gone.
   void write(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) const;
   void write(const std::filesystem::path& path, std::string_view text) const;
 
@@ -36,7 +36,8 @@ class DurableFiles {
   void remove(const std::filesystem::path& path) const;
 
  private:
-  void write_and_sync(const std::filesystem::path& path, std::span<const std::uint8_t> bytes) const;
+  void write_and_sync(const std::filesystem::path& aside, const std::filesystem::path& path,
+                      std::span<const std::uint8_t> bytes) const;
   void sync_folder(const std::filesystem::path& path) const;
   void note(Step step, const std::filesystem::path& path) const {
     if (observer_) observer_(step, path);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <set>
+#include <vector>
 
 #include "geometry/camera.h"
 #include "lightfield/durable_files.h"
@@ -25,11 +26,16 @@ class MapWriter {
   /// `on_disk`: keyframes of the map that is in the folder already and is gone on with.
   MapWriter(std::filesystem::path capture, std::size_t on_disk);
 
-  /// Throws config::InputError on the first error of the disk.
+  /// Throws config::InputError on the first error of the disk, and if the map could not be read
+  /// again; pictures that no map.json came to name are removed then, as they take room.
   void write(const tracking::MapView& map, const geometry::Camera& camera,
              const DurableFiles& files);
 
  private:
+  void write_pictures(const tracking::MapView& map, const DurableFiles& files,
+                      std::vector<tracking::KeyframeId>* written);
+  void forget(const std::vector<tracking::KeyframeId>& pictures, const DurableFiles& files);
+
   std::filesystem::path capture_;
   std::set<tracking::KeyframeId> pictures_;  ///< on disk
 };

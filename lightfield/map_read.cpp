@@ -6,6 +6,7 @@
 #include "hal/image_io.h"
 #include "lightfield/json_value.h"
 #include "lightfield/map_files.h"
+#include "lightfield/map_limits.h"
 #include "lightfield/text_numbers.h"
 
 namespace lumibox::lightfield {
@@ -68,10 +69,25 @@ std::shared_ptr<const Pyramid> read_picture(const fs::path& file, const geometry
 
 double read_length(const JsonValue& value) {
   const double length = value.number();
-  if (!(length > 0.0 && length <= geometry::kLargestCoordinate)) {
-    value.fail("is " + to_text(length) + ", expected more than 0, up to 1e9");
-  }
+  if (!is_length(length)) value.fail("is " + to_text(length) + ", expected more than 0, up to 1e9");
   return length;
+}
+
+double read_scale(const JsonValue& value) {
+  const double scale = value.number();
+  if (!is_scale(scale)) value.fail("is " + to_text(scale) + ", expected 0.001 to 1000");
+  return scale;
+}
+
+geometry::Vector6d read_readout_motion(const JsonValue& value, double median_depth) {
+  const geometry::Vector6d twist = value.numbers(6);
+  if (!is_readout_motion(twist, median_depth)) {
+    value.fail("is a motion of " + to_text(twist.head<3>().stableNorm()) + " and a turn of " +
+               to_text(twist.tail<3>().stableNorm()) +
+               " rad, expected at most 1000 median depths of " + to_text(median_depth) +
+               ", and half a turn");
+  }
+  return twist;
 }
 
 geometry::Similarity read_place(const JsonValue& value) {
@@ -80,7 +96,7 @@ geometry::Similarity read_place(const JsonValue& value) {
     value.at("rotation_wxyz").fail("is not a unit quaternion");
   }
   // Not normalised: the map goes on from the very bits that it had.
-  return {read_length(value.at("scale")),
+  return {read_scale(value.at("scale")),
           {Eigen::Quaterniond(q[0], q[1], q[2], q[3]), read_position(value.at("translation"))}};
 }
 
@@ -97,8 +113,8 @@ MapView::Keyframe read_keyframe(const JsonValue& value, std::size_t keyframes) {
   keyframe.world_from_camera = place.rigid;
   keyframe.camera_from_world = place.rigid.inverse();
   keyframe.scale = place.scale;
-  keyframe.readout_twist = value.at("readout_twist").numbers(6);
   keyframe.median_depth = read_length(value.at("median_depth"));
+  keyframe.readout_twist = read_readout_motion(value.at("readout_twist"), keyframe.median_depth);
   return keyframe;
 }
 
@@ -142,7 +158,7 @@ Sighting read_sighting(const JsonValue& value, const MapView& map, const geometr
 void read_point(const JsonValue& value, const geometry::Camera& camera, MapView* map) {
   MapView::Point point;
   const PointId first = map->points.empty() ? 0 : map->points.back().id + 1;
-  point.id = static_cast<PointId>(value.at("id").integer(first, map->next_point - 1));
+  point.id = static_cast<PointId>(value.at("id").integer(first, kMost - 1));
   point.position = value.at("position").numbers(3);  // may be as good as infinitely far away
   point.searched = static_cast<int>(value.at("searched").integer(0, kMost));
   point.found = static_cast<int>(value.at("found").integer(0, point.searched));
@@ -173,6 +189,12 @@ MapView read_map(const fs::path& capture, const geometry::Camera& camera, int le
     top.at("keyframes").fail("has none with a picture");
   }
   for (const JsonValue& value : top.at("points").items()) read_point(value, camera, &map);
+  if (map.points.empty()) top.at("points").fail("is empty, expected what the tracker goes by");
+  if (const PointId last = map.points.back().id; last >= map.next_point) {
+    top.at("next_point")
+        .fail("is " + std::to_string(map.next_point) + ", but there is a point of id " +
+              std::to_string(last) + "; expected more than every id");
+  }
   return map;
 }
 

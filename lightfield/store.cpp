@@ -45,7 +45,9 @@ class Store::Impl {
       if (std::exchange(map_, std::move(map))) return;  // one is on its way: this in its place
     }
     post([this, camera = std::move(camera)](CaptureWriter& writer) {
-      writer.set_map(*take_map(), *camera);
+      auto map_error = writer.set_map(*take_map(), *camera);
+      const std::lock_guard lock(mutex_);
+      map_error_ = std::move(map_error);
     });
   }
 
@@ -79,7 +81,7 @@ class Store::Impl {
 
   std::optional<std::string> error() const {
     const std::lock_guard lock(mutex_);
-    return error_;
+    return error_ ? error_ : map_error_;
   }
 
   const std::filesystem::path& folder() const { return writer_.folder(); }
@@ -105,9 +107,14 @@ class Store::Impl {
     }
   }
 
+  bool stopped() const {
+    const std::lock_guard lock(mutex_);
+    return error_.has_value();
+  }
+
   /// Changes that have queued up share one transforms.json.
   void apply(const std::vector<Change>& changes) {
-    if (error()) return;
+    if (stopped()) return;
     attempt([&] {
       for (const Change& change : changes) change(writer_);
     });
@@ -130,7 +137,8 @@ class Store::Impl {
   std::condition_variable idle_;
   std::vector<Change> queue_;
   std::shared_ptr<const tracking::MapView> map_;  ///< that waits to be written
-  std::optional<std::string> error_;
+  std::optional<std::string> error_;              ///< that ended the writing
+  std::optional<std::string> map_error_;          ///< of the last map, which ended nothing
   bool busy_ = false;
   bool ending_ = false;  ///< set by the caller's thread, which alone reads it unguarded
   std::thread thread_;   ///< last: it uses all of the above

@@ -67,7 +67,8 @@ class Store {
   void set_threshold(double radians);
 
   /// First error of the writer (disk full, folder gone), as a sentence with the path; none if all
-  /// is well. After an error nothing more is written: what was complete before stays loadable.
+  /// is well. After an error nothing more is written: what was complete before stays loadable. Only
+  /// one with the map ends nothing: the map before stays, and the next is tried.
   std::optional<std::string> error() const;
 
   /// Waits until everything handed over is on disk. Throws config::InputError on error().

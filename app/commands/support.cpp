@@ -8,6 +8,7 @@
 
 #include "config/error.h"
 #include "config/log.h"
+#include "config/output_file.h"
 #include "lightfield/transforms.h"
 
 namespace lumibox::app {
@@ -51,12 +52,7 @@ const lightfield::Sphere& subject_of(const lightfield::Capture& capture) {
 }
 
 void write_json(const std::filesystem::path& file, const nlohmann::json& json) {
-  std::ofstream stream(file);
-  stream << json.dump(2) << '\n';
-  stream.close();
-  if (!stream) {
-    throw config::InputError(file, "cannot be written");
-  }
+  config::write_text(file, json.dump(2) + "\n");
 }
 
 void make_parent_folder(const std::filesystem::path& file) {

@@ -24,6 +24,7 @@
 #include "hal/replay/replay_camera.h"
 #include "hal/system_clock.h"
 #include "lightfield/capture_lock.h"
+#include "lightfield/transforms.h"
 
 namespace lumibox::app {
 namespace {
@@ -162,18 +163,33 @@ std::optional<lightfield::CaptureLock> try_outputs(const TrackOptions& options) 
   return lock;
 }
 
-/// Brings the capture to disk and says what it came to.
+/// How many perspectives of a capture are on disk.
+std::size_t kept_in(const std::filesystem::path& capture) {
+  try {
+    const auto file = capture / lightfield::kTransformsFile;
+    return lightfield::read_transforms(file, lightfield::Dialect::Capture).perspectives.size();
+  } catch (const config::InputError&) {
+    return 0;
+  }
+}
+
+/// Brings the capture to disk and says what it came to, also if not all of it got there.
 void finish_capture(const std::filesystem::path& folder, Recorder& recorder,
                     const tracking::Tracker& tracker, nlohmann::json& json) {
-  recorder.finish(map_of(tracker));
-  const std::size_t perspectives = recorder.light_field().perspectives().size();
-  json["perspectives"] = perspectives;
+  Attempts attempts;
+  attempts.attempt([&] { recorder.finish(map_of(tracker)); });
+  const std::size_t recorded = recorder.light_field().perspectives().size();
+  const std::size_t kept = kept_in(folder);
+  json["perspectives"] = kept;
   if (!recorder.light_field().subject()) {
     config::log_warning(folder.string() +
                         ": no capture: no frame was tracked well enough to place the subject");
-    return;
+  } else if (kept == recorded) {
+    std::printf("%zu perspectives in %s\n", kept, folder.c_str());
+  } else {
+    std::printf("%zu of %zu perspectives in %s\n", kept, recorded, folder.c_str());
   }
-  std::printf("%zu perspectives in %s\n", perspectives, folder.c_str());
+  attempts.rethrow();
 }
 
 }  // namespace
@@ -250,7 +266,7 @@ void track(const TrackOptions& options) {
       bench::write_svg(*options.plot, bench::draw_track(plot));
     });
   }
-  attempts.rethrow_first();
+  attempts.rethrow();
   if (result.poses.empty()) {
     throw config::InputError(options.sequence, std::string("no frame could be tracked: ") +
                                                    tracking::advice(result.report.last_reason()));

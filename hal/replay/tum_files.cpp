@@ -1,9 +1,6 @@
 #include "hal/replay/tum_files.h"
 
-#include <cerrno>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <iomanip>
 #include <optional>
 #include <sstream>
@@ -11,6 +8,7 @@
 
 #include "config/error.h"
 #include "config/loader.h"
+#include "config/output_file.h"
 #include "geometry/camera.h"
 #include "geometry/position.h"
 #include "hal/replay/text_file.h"
@@ -167,7 +165,7 @@ Sequence::Subject read_subject(const fs::path& file) {
 }
 
 void write_tum_trajectory(const fs::path& file, const std::vector<StampedPose>& trajectory) {
-  std::ofstream out(file);
+  std::ostringstream out;
   out << "# timestamp tx ty tz qx qy qz qw (world from camera)\n" << std::fixed;
   out << std::setprecision(9);
   for (const StampedPose& pose : trajectory) {
@@ -179,10 +177,7 @@ void write_tum_trajectory(const fs::path& file, const std::vector<StampedPose>& 
     out << pose.timestamp_s << ' ' << t.x() << ' ' << t.y() << ' ' << t.z() << ' ' << q.x() << ' '
         << q.y() << ' ' << q.z() << ' ' << q.w() << '\n';
   }
-  out.close();
-  if (!out) {
-    throw InputError(file, std::string("cannot be written: ") + std::strerror(errno));
-  }
+  config::write_text(file, out.str());
 }
 
 }  // namespace lumibox::hal

@@ -24,6 +24,7 @@ using ::testing::HasSubstr;
 using testing::read_text;
 using testing::Recording;
 using ::testing::StartsWith;
+using ::testing::StrEq;
 using testing::TempDir;
 
 struct Outcome {
@@ -433,6 +434,14 @@ TEST(CommandLine, AnErrorWithOneResultDoesNotCostTheOthers) {
                            (dir / "stats.json").string()),
                    HasSubstr("/dev/full"));
   EXPECT_THAT(read_text(dir / "stats.json"), HasSubstr("\"frames\": 5"));
+}
+
+TEST(CommandLine, AllThatWentWrongIsOneLine) {
+  const Recording recording;
+  const std::string full = "/dev/full: cannot be written: No space left on device";
+  EXPECT_COMPLAINT(lumibox("track " + recording.folder().string() +
+                           " --out /dev/full --json /dev/full --plot /dev/full"),
+                   StrEq("lumibox: " + full + "; " + full + "; " + full + "\n"));
 }
 
 struct Spoiled {

@@ -37,7 +37,7 @@ class World {
   }
 
   /// What a tracker would keep: keyframes from 0 on, those that no test put elsewhere at the
-  /// origin.
+  /// origin, and a point that the first sees.
   std::shared_ptr<const tracking::MapView> copy() const {
     auto map = std::make_shared<tracking::MapView>();
     for (tracking::KeyframeId id = 0; id <= keyframes_.rbegin()->first; ++id) {
@@ -48,6 +48,9 @@ class World {
       keyframe.pyramid = std::make_shared<tracking::Pyramid>(hal::Image(64, 48, 1), 2);
       map->keyframes.push_back(keyframe);
     }
+    map->points.push_back({.id = 0, .position = Eigen::Vector3d::UnitZ(), .sightings = 1});
+    map->sightings.push_back({0, {32.0, 24.0}, 0});
+    map->next_point = 1;
     return map;
   }
 

@@ -87,6 +87,20 @@ TEST(MapFiles, AMapThatIsNotFiniteLeavesTheOldOne) {
   EXPECT_EQ(difference(read_map(folder / "c", *small_camera(), kLevels), make_map(3)), "");
 }
 
+TEST(MapFiles, AMapThatWouldNotBeReadIsNotWritten) {
+  const TemporaryFolder folder;
+  tracking::MapView scaled = make_map(3);
+  scaled.keyframes[2].scale = 1e9;
+  EXPECT_THAT(input_error([&] { save(scaled, folder / "c"); }), HasSubstr("keyframe 2 is not"));
+  tracking::MapView fast = make_map(3);
+  fast.keyframes[0].readout_twist[4] = 7.0;
+  EXPECT_THAT(input_error([&] { save(fast, folder / "c"); }), HasSubstr("keyframe 0 is not"));
+  tracking::MapView empty = make_map(3);
+  empty.points.clear();
+  EXPECT_THAT(input_error([&] { save(empty, folder / "c"); }), HasSubstr("has no points"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "c"));
+}
+
 TEST(MapFiles, APointWithoutAPlaceIsLeftOut) {
   const TemporaryFolder folder;
   tracking::MapView map = make_map(3);
@@ -137,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(
                "keyframes[0].median_depth is null"},
         Damage{"Infinite", "\"position\":[", "\"position\":[1e999,", "1e999"},
         Damage{"NoScale", "\"scale\":1.0", "\"scale\":0.0",
-               "keyframes[0].world_from_this.scale is 0, expected more than 0"},
+               "keyframes[0].world_from_this.scale is 0, expected 0.001"},
         Damage{"TiedToNothing", "{\"world_from_this\":", "{\"tied_to\":3,\"tied_from_this\":",
                "keyframes[0].tied_to is 3, expected an integer from 0 to 2"},
         Damage{"TiedToItself", "{\"world_from_this\":", "{\"tied_to\":0,\"tied_from_this\":",
@@ -160,8 +174,18 @@ INSTANTIATE_TEST_SUITE_P(
                "points[0].sightings[0] lies outside the picture"},
         Damage{"LevelThatIsNot", "\"sightings\":[[0,", "\"sightings\":[[0,1.0,1.0,2],[0,",
                "points[0].sightings[0][3] is 2, expected an integer from 0 to 1"},
-        Damage{"PointBeyondTheNext",
-               "\"next_point\": ", "\"next_point\": 1, \"x\": ", "points[1].id is"},
+        Damage{"PointBeyondTheNext", "\"next_point\": ", "\"next_point\": 1, \"x\": ",
+               "next_point is 1, but there is a point of id 34; expected more than every id"},
+        Damage{"NoNextPoint", "\"next_point\": ", "\"next_point\": 0, \"x\": ",
+               "next_point is 0, but there is a point of id 34"},
+        Damage{"NoPoints", "\"points\": [", "\"points\": [], \"x\": [", "points is empty"},
+        Damage{"HugeScale", "\"scale\":1.0", "\"scale\":1e9",
+               "keyframes[0].world_from_this.scale is 1e+09, expected 0.001 to 1000"},
+        Damage{"FastReadout", "\"readout_twist\":[", "\"readout_twist\":[1e300,0,0,0,0,0],\"x\":[",
+               "keyframes[0].readout_twist is a motion of 1e+300"},
+        Damage{"ReadoutOfMoreThanATurn", "\"readout_twist\":[",
+               "\"readout_twist\":[0,0,0,0,7,0],\"x\":[",
+               "keyframes[0].readout_twist is a motion of 0 and a turn of 7 rad"},
         Damage{"SamePointTwice", "\"id\":1,", "\"id\":0,",
                "points[1].id is 0, expected an integer from 1"},
         Damage{"FoundMoreThanSearched", "\"searched\":1,", "\"searched\":0,",

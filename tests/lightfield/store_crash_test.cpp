@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/mount.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,12 +11,14 @@
 #include "lightfield/map_files.h"
 #include "lightfield/map_fixtures.h"
 #include "lightfield/store.h"
+#include "support/file_size_limit.h"
 
 namespace lumibox::lightfield {
 namespace {
 
 namespace fs = std::filesystem;
 using Step = DurableFiles::Step;
+using testing::FileSizeLimit;
 using ::testing::HasSubstr;
 
 const Sphere kSphere{Eigen::Vector3d(0.1, -0.2, 3.0), 0.7};
@@ -153,27 +154,6 @@ TEST(StoreCrash, SurvivesKillMinusNineAtRandomMoments) {
   }
 }
 
-/// No file may grow beyond `bytes` while this lives: what a full disk looks like to the Store,
-/// without needing one.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    ::getrlimit(RLIMIT_FSIZE, &old_limit_);
-    const rlimit limit{bytes, old_limit_.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    ::setrlimit(RLIMIT_FSIZE, &old_limit_);
-    std::signal(SIGXFSZ, old_handler_);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-
- private:
-  void (*old_handler_)(int);
-  rlimit old_limit_{};
-};
-
 TEST(StoreFull, PictureThatDoesNotFitIsAnErrorAndTheRestStays) {
   for (const Writing writing : {Writing::Inline, Writing::Threaded}) {
     const TemporaryFolder folder;
@@ -207,6 +187,38 @@ TEST(StoreFull, TransformsThatDoNotFitLeaveTheOldOnes) {
   const Capture capture = load_capture(folder / "c");
   ASSERT_EQ(capture.light_field.perspectives().size(), 1U);
   EXPECT_EQ(capture.light_field.perspectives()[0].id, 0);
+}
+
+TEST(StoreFull, AMapThatDoesNotFitEndsNothing) {
+  const TemporaryFolder folder;
+  const auto map = std::make_shared<tracking::MapView>(make_map(4));
+  Store store(folder / "c", 90, Writing::Inline);
+  store.add(taken(0));
+  {
+    const FileSizeLimit limit(4000);  // a keyframe's picture fits, map.json does not
+    store.set_map(map, small_camera());
+    EXPECT_THAT(store.error().value_or(""),
+                HasSubstr("map/map.json: cannot write: File too large"));
+    store.add(taken(1));
+    EXPECT_THAT(input_error([&] { store.flush(); }), HasSubstr("map/map.json"));
+  }
+  EXPECT_EQ(load_capture(folder / "c").light_field.perspectives().size(), 2U);
+  EXPECT_TRUE(fs::is_empty(folder / "c/map")) << "pictures of no map take room";
+  store.set_map(map, small_camera());
+  EXPECT_EQ(store.error(), std::nullopt) << "there is room again";
+  EXPECT_EQ(difference(read_map(folder / "c", *small_camera(), 2), *map), "");
+}
+
+TEST(StoreFull, AMapThatDoesNotFitLeavesTheOneBefore) {
+  const TemporaryFolder folder;
+  Store store(folder / "c", 90, Writing::Inline);
+  store.set_map(std::make_shared<tracking::MapView>(make_map(2)), small_camera());
+  {
+    const FileSizeLimit limit(400);  // not even a picture of the test's noise
+    store.set_map(std::make_shared<tracking::MapView>(make_map(3)), small_camera());
+    EXPECT_THAT(store.error().value_or(""), HasSubstr("map/"));
+  }
+  EXPECT_EQ(difference(read_map(folder / "c", *small_camera(), 2), make_map(2)), "");
 }
 
 TEST(StoreFull, SmallFileSystem) {
