@@ -1,6 +1,7 @@
 #include <csignal>
 #include <cstdio>
 
+#include "app/attempts.h"
 #include "app/commands/commands.h"
 #include "app/commands/support.h"
 #include "app/loop.h"
@@ -25,14 +26,18 @@ void run(const RunOptions& options) {
             find_saved_capture(config.capture.folder, camera, config.tracking.pyramid_levels));
   std::signal(SIGINT, ask_to_stop);
   std::signal(SIGTERM, ask_to_stop);
-  loop.run_and_finish(
-      [&] { return stop_asked == 0 && devices.camera->state() != hal::CameraState::Ended; });
+  Attempts attempts;  // what the run came to is said whatever went wrong
+  attempts.attempt([&] {
+    loop.run_and_finish(
+        [&] { return stop_asked == 0 && devices.camera->state() != hal::CameraState::Ended; });
+  });
   const LoopStatistics statistics = loop.statistics();
   std::printf("%lld ticks, %lld late; %lld frames, %lld tracked; %zu perspectives\n",
               static_cast<long long>(statistics.ticks),
               static_cast<long long>(statistics.late_ticks),
               static_cast<long long>(statistics.frames), static_cast<long long>(statistics.tracked),
               loop.recorder().light_field().perspectives().size());
+  attempts.rethrow();
 }
 
 }  // namespace lumibox::app
