@@ -22,8 +22,7 @@ namespace {
 
 using hal::Button;
 
-/// Something that happens in the demo: a press, a picture of the screen, or both; the picture shows
-/// the screen before the press.
+/// Something that happens in the demo: a picture of the screen, a press, or both, in this order.
 struct Step {
   double time_s;
   std::optional<Gesture> press;
@@ -43,7 +42,7 @@ constexpr Gesture kWipeLong{Button::Wipe, Press::Long};
 // The walk of the scene takes 21.5 seconds; after it the box has nothing new to see.
 constexpr Step kSteps[] = {
     {0.0, kMain, "01-looking-around", "Main: nothing to place yet, so nothing happens"},
-    {1.6, kReview, "02-aim", "a map is there; Review: the augmented aperture"},
+    {1.6, kReview, "02-aim", "Review, since there is a map: the augmented aperture"},
     {2.3, kMinus, "03-focus", "-: focus nearer"},
     {2.5, kMinus, nullptr, "-: nearer still"},
     {2.9, kPlus, "04-focused-nearer", "+: and back"},
@@ -57,7 +56,7 @@ constexpr Step kSteps[] = {
     {13.0, std::nullopt, "07-capture-middle", "painting the sphere"},
     {15.0, kReview, nullptr, "Review: at once, from where the box is"},
     {15.2, kReview, "08-review-on-the-way", "Review: back to the capture"},
-    {21.4, kReview, "09-capture-late", "the walk ends; Review"},
+    {21.4, kReview, "09-capture-late", "Review, since the walk ends"},
     {21.6, kMainLong, nullptr, "Main, long: a slow orbit in place of the box"},
     {24.0, kMain, "10-review-small-aperture", "Main: the wide aperture"},
     {24.3, kMinus, "11-review-wide-aperture", "-: focus nearer"},
@@ -89,12 +88,13 @@ class Narrator {
     const double now_s = 1e-9 * static_cast<double>(now_ns);
     for (; next_ < std::size(kSteps) && kSteps[next_].time_s <= now_s; ++next_) {
       const Step& step = kSteps[next_];
-      std::printf("%5.1f s  %s\n", step.time_s, step.says);
+      std::printf("%5.1f s  ", step.time_s);
       if (step.picture != nullptr) {
         const auto file = out_ / (std::string(step.picture) + ".png");
         hal::write_png(file, display_.read_back());
-        std::printf("         %s\n", file.c_str());
+        std::printf("%s\n         %s", file.c_str(), step.press ? "then " : "");
       }
+      std::printf("%s\n", step.says);
       std::fflush(stdout);
     }
     return next_ < std::size(kSteps);
