@@ -44,6 +44,9 @@ struct Capture {
   std::string folder = "captures";  ///< where `run` keeps its captures
 };
 
+/// Of the weights, in the configuration and on the command line: beyond, only the nearest counts.
+inline constexpr double kLargestExponent = 64.0;
+
 struct Render {
   std::string geometry = "mesh";       ///< that the small aperture shows pictures on
   int k = 40;                          ///< perspectives blended (thesis 3: 40 to 60)

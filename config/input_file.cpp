@@ -14,12 +14,8 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 30U;
 
 std::uintmax_t checked_size(const fs::path& file) {
+  if (const auto fault = fault_of_file(file)) throw InputError(file, *fault);
   std::error_code error;
-  const fs::file_status status = fs::status(file, error);
-  if (status.type() == fs::file_type::not_found) throw InputError(file, "no such file");
-  if (error) throw InputError(file, "cannot be read: " + error.message());
-  if (fs::is_directory(status)) throw InputError(file, "a folder, not a file");
-  if (!fs::is_regular_file(status)) throw InputError(file, "not a file");
   const std::uintmax_t size = fs::file_size(file, error);
   if (error) throw InputError(file, "cannot be read: " + error.message());
   if (size > kMostBytes) {
@@ -41,6 +37,16 @@ Bytes read_all(const fs::path& file) {
 }
 
 }  // namespace
+
+std::optional<std::string> fault_of_file(const fs::path& file) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (status.type() == fs::file_type::not_found) return "no such file";
+  if (error) return "cannot be read: " + error.message();
+  if (fs::is_directory(status)) return "a folder, not a file";
+  if (!fs::is_regular_file(status)) return "not a file";
+  return std::nullopt;
+}
 
 std::vector<std::uint8_t> read_bytes(const fs::path& file) {
   return read_all<std::vector<std::uint8_t>>(file);

@@ -31,11 +31,12 @@ toml::table parse(const fs::path& file) {
   }
 }
 
-/// "unknown key 'x'; did you mean 'y'? Allowed here: ..."
+/// "unknown key 'x'; did you mean 'y'? Allowed: ..."
 std::string unknown(const std::string& what, const std::string& name,
                     const std::vector<std::string>& allowed) {
-  std::string message = "unknown " + what + " '" + name + "'; did you mean '" +
-                        nearest(name, allowed) + "'? Allowed: ";
+  const std::string meant = nearest(name, allowed);
+  std::string message = "unknown " + what + " '" + name +
+                        (meant.empty() ? "'. " : "'; did you mean '" + meant + "'? ") + "Allowed: ";
   for (const std::string& candidate : allowed) {
     message += (&candidate == &allowed.front() ? "" : ", ") + candidate;
   }

@@ -226,7 +226,7 @@ std::vector<Key> schema(Config& c) {
        &c.render.exponent,
        "exponent",
        0,
-       64,
+       kLargestExponent,
        {},
        "thesis section 3.2: set by eye, 0 weighs all alike"},
       {"render",

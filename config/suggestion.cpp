@@ -27,7 +27,9 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
   const auto best = std::ranges::min_element(
       candidates, {}, [&](const std::string& candidate) { return edit_distance(word, candidate); });
-  return best == candidates.end() ? std::string() : *best;
+  const std::size_t farthest = std::max<std::size_t>(1, (word.size() + 1) / 3);
+  const bool is_near = best != candidates.end() && edit_distance(word, *best) <= farthest;
+  return is_near ? *best : std::string();
 }
 
 }  // namespace lumibox::config

@@ -158,7 +158,7 @@ void add_render(CLI::App& app) {
       ->check(CLI::Range(1, static_cast<int>(render::kMaxLayers)))
       ->type_name("N");
   command->add_option("--exponent", options->exponent, "of the weights (default: render.exponent)")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(CLI::Range(0.0, config::kLargestExponent))
       ->check(must_be_finite)
       ->type_name("X");
   command
@@ -380,12 +380,15 @@ void add_bench(CLI::App& app) {
   const auto options = std::make_shared<BenchOptions>();
   CLI::App* command = add_command(
       app, "bench",
-      "What accuracy costs in time: one setting varied at a time; JSON lines and a plot.",
+      "What accuracy costs in time, one setting varied at a time; or a frame of each simulated "
+      "scene. JSON lines, and of tracking a plot.",
       "lumibox bench tracking --out out/bench --sequence walk/", options, run_bench);
   command->add_option("WHAT", options->what, "what is measured")
       ->check(CLI::IsMember({"tracking", "simulation"}))
       ->capture_default_str();
-  command->add_option("--out", options->out, "folder for WHAT.jsonl and WHAT.svg")
+  command
+      ->add_option("--out", options->out,
+                   "folder for WHAT.jsonl and, of tracking, a plot, tracking.svg")
       ->type_name("DIR")
       ->required();
   command

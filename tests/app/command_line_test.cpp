@@ -141,6 +141,13 @@ TEST(CommandLine, BadSettingsAreNamed) {
   EXPECT_COMPLAINT(lumibox("run --config " + file.string()), HasSubstr(file.string() + ":2"));
 }
 
+TEST(CommandLine, OptionsHaveTheRangesOfTheSettingsTheyStandFor) {
+  EXPECT_EQ(lumibox("render c --views v --out o --exponent 80").status, 2);
+  EXPECT_COMPLAINT(lumibox("evaluate c --set render.exponent=80"), HasSubstr("render.exponent"));
+  EXPECT_COMPLAINT(lumibox("render c --views v --out o --exponent 64"),
+                   HasSubstr("c: is not a folder"));
+}
+
 TEST(CommandLine, OffersOnlyWhatItHas) {
   const Outcome geometry = lumibox("render c --views v --out o --geometry cube");
   EXPECT_EQ(geometry.status, 2);
@@ -374,6 +381,14 @@ TEST(CommandLine, RecordingThatCannotBeTrackedLeavesItsStatisticsAndSaysWhy) {
   EXPECT_TRUE(std::filesystem::exists(out + ".tum"));
   EXPECT_TRUE(std::filesystem::exists(out + ".live.tum"));
   EXPECT_THAT(read_text(out + ".svg"), HasSubstr("5 frames, 0 tracked"));
+}
+
+TEST(CommandLine, TruthWithoutPosesIsWarnedOf) {
+  const Recording recording;
+  recording.dir().write("groundtruth.txt", "# nothing\n");
+  const std::string out = (recording.folder() / "walk.tum").string();
+  EXPECT_THAT(lumibox("track " + recording.folder().string() + " --out " + out).err,
+              HasSubstr("groundtruth.txt: no poses"));
 }
 
 TEST(CommandLine, WhatCameBeforeABrokenPictureIsKept) {

@@ -16,8 +16,10 @@ TEST(Suggestion, OfNothingIsNothing) {
   EXPECT_EQ(nearest("level", {}), "");
 }
 
-TEST(Suggestion, ForAnEmptyWordIsTheShortest) {
-  EXPECT_EQ(nearest("", {"abc", "ab"}), "ab");
+TEST(Suggestion, OfWhatNobodyMeantIsNothing) {
+  EXPECT_EQ(nearest("banana", {"level", "k"}), "");
+  EXPECT_EQ(nearest("", {"abc", "ab"}), "");
+  EXPECT_EQ(nearest("leevl", {"rate", "level"}), "level") << "two letters that changed places";
 }
 
 }  // namespace
