@@ -29,11 +29,13 @@ std::string errors(const nlohmann::json& s) {
   std::string text;
   for (const std::string which : {"live", "final"}) {
     if (!s.contains("ate_" + which)) return {};
-    text +=
-        fmt::format("{}{} {:.4g} ({:.3g} % of the extent), rotation {:.3g}°",
-                    text.empty() ? "Error (RMSE): " : "; ", which, s["ate_" + which].get<double>(),
-                    s["ate_" + which + "_percent"].get<double>(),
-                    s["rotation_rmse_deg_" + which].get<double>());
+    const std::string percent = "ate_" + which + "_percent";
+    const std::string share =
+        s.contains(percent) ? fmt::format(" ({:.3g} % of the extent)", s[percent].get<double>())
+                            : " (the extent is zero)";
+    text += fmt::format("{}{} {:.4g}{}, rotation {:.3g}°", text.empty() ? "Error (RMSE): " : "; ",
+                        which, s["ate_" + which].get<double>(), share,
+                        s["rotation_rmse_deg_" + which].get<double>());
   }
   return text;
 }

@@ -42,8 +42,8 @@ void await_mapper(const tracking::Tracker& tracker) {
 std::optional<Accuracy> accuracy(const std::vector<hal::StampedPose>& trajectory,
                                  const std::vector<hal::StampedPose>& truth) {
   const auto error = compare_trajectories(trajectory, truth);
-  if (!error) return std::nullopt;
-  return Accuracy{error->rmse_percent, error->rotation_rmse_deg};
+  if (!error || !error->rmse_percent) return std::nullopt;
+  return Accuracy{*error->rmse_percent, error->rotation_rmse_deg};
 }
 
 nlohmann::json to_json(const FrameTimes& times) {

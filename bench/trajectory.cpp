@@ -118,7 +118,7 @@ std::optional<TrajectoryError> compare_trajectories(const std::vector<hal::Stamp
   error.by_pose = errors_by_pose(pairs, error.truth_from_estimate);
   error.rmse = rms(error.by_pose, &PoseError::distance);
   const double extent = (actual.rowwise().maxCoeff() - actual.rowwise().minCoeff()).norm();
-  error.rmse_percent = extent > 0.0 ? 100.0 * error.rmse / extent : 0.0;
+  if (extent > 0.0) error.rmse_percent = 100.0 * error.rmse / extent;
   error.rotation_rmse_deg = rms(error.by_pose, &PoseError::rotation_deg);
   if (subject) {
     error.subject_rmse_deg = subject_rmse_deg(pairs, error.truth_from_estimate, *subject);

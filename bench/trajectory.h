@@ -17,9 +17,10 @@ struct PoseError {
 
 /// How far a trajectory is from the truth.
 struct TrajectoryError {
-  int poses = 0;              ///< that have a true pose of the same time
-  double rmse = 0.0;          ///< of the positions, in the truth's units
-  double rmse_percent = 0.0;  ///< of the diagonal of the true positions' bounding box
+  int poses = 0;      ///< that have a true pose of the same time
+  double rmse = 0.0;  ///< of the positions, in the truth's units
+  /// Of the diagonal of the true positions' bounding box; none if that is zero.
+  std::optional<double> rmse_percent;
   /// RMSE of the orientations after the one turn of the world that fits them best: positions do
   /// not matter, so it judges a camera that only turns.
   double rotation_rmse_deg = 0.0;

@@ -1,5 +1,6 @@
 #include "lightfield/points_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <string>
@@ -135,6 +136,10 @@ std::vector<std::uint8_t> encode_ply(const std::vector<Eigen::Vector3d>& points)
 std::vector<Eigen::Vector3d> read_ply(const std::filesystem::path& path) {
   const std::vector<std::uint8_t> bytes = config::read_bytes(path);
   ByteReader reader(bytes, path);
+  constexpr std::string_view kMagic = "ply";
+  if (bytes.size() < kMagic.size() || !std::equal(kMagic.begin(), kMagic.end(), bytes.begin())) {
+    reader.fail("is no PLY file; expected one, which begins with the letters ply");
+  }
   const Header header = read_header(reader);
   std::vector<Eigen::Vector3d> points;
   for (std::uint64_t i = 0; i < header.vertices; ++i) {

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -61,7 +63,8 @@ void play(Sight& sight, hal::Camera& camera, hal::Clock& clock, AutoCapture* cap
   }
 }
 
-/// Adds the errors against the truth to the statistics and says them.
+/// Adds the errors against the truth to the statistics and says them, if there are enough poses to
+/// compare.
 void judge(const std::string& which, const std::vector<hal::StampedPose>& trajectory,
            const hal::Sequence& sequence, nlohmann::json& json) {
   const auto subject = sequence.subject ? std::optional(sequence.subject->center) : std::nullopt;
@@ -70,12 +73,14 @@ void judge(const std::string& which, const std::vector<hal::StampedPose>& trajec
     return;
   }
   json["ate_" + which] = error->rmse;
-  json["ate_" + which + "_percent"] = error->rmse_percent;
+  std::string share = "of an extent that is zero";
+  if (error->rmse_percent) {
+    json["ate_" + which + "_percent"] = *error->rmse_percent;
+    share = fmt::format("{:.3f} % of the extent", *error->rmse_percent);
+  }
   json["rotation_rmse_deg_" + which] = error->rotation_rmse_deg;
-  std::printf(
-      "%-5s error over %d poses: %.5f, %.3f %% of the extent (RMSE after Sim(3) "
-      "alignment); rotation %.3f deg",
-      which.c_str(), error->poses, error->rmse, error->rmse_percent, error->rotation_rmse_deg);
+  std::printf("%-5s error over %d poses: %.5f, %s (RMSE after Sim(3) alignment); rotation %.3f deg",
+              which.c_str(), error->poses, error->rmse, share.c_str(), error->rotation_rmse_deg);
   if (error->subject_rmse_deg) {
     json["subject_rmse_deg_" + which] = *error->subject_rmse_deg;
     std::printf(", %.3f deg at the subject", *error->subject_rmse_deg);
@@ -251,6 +256,12 @@ void track(const TrackOptions& options) {
   say(result.report, json);
   judge("live", live, sequence, json);
   judge("final", corrected, sequence, json);
+  if (corrected.size() >= 3 && !sequence.ground_truth.empty() && !json.contains("ate_final")) {
+    config::log_warning(
+        fmt::format("{}: fewer than three poses have a true pose within 0.02 s of their time; no "
+                    "errors are said",
+                    (sequence.path / "groundtruth.txt").string()));
+  }
   if (options.json) {
     attempts.attempt([&] { write_json(*options.json, json); });
   }

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "config/error.h"
+#include "config/input_file.h"
 #include "config/log.h"
 #include "hal/image_io.h"
 #include "hal/replay/tum_files.h"
@@ -77,6 +78,26 @@ std::optional<fs::path> calibration_of(const fs::path& folder,
   return given ? given : optional_file(folder, "calib.txt");
 }
 
+bool lies_inside(const fs::path& target, const fs::path& root) {
+  const fs::path relative = target.lexically_relative(root);
+  return !relative.empty() && *relative.begin() != "..";
+}
+
+/// " by the link FILE", if one leads out of the folder on the way to the name.
+std::string by_link(const fs::path& folder, const fs::path& root, const fs::path& name) {
+  std::error_code ignored;
+  fs::path way = folder;
+  for (const fs::path& part : name) {
+    const bool was_inside = lies_inside(fs::weakly_canonical(way, ignored), root);
+    way /= part;
+    if (was_inside && fs::is_symlink(way, ignored) &&
+        !lies_inside(fs::weakly_canonical(way, ignored), root)) {
+      return " by the link " + way.string();
+    }
+  }
+  return {};
+}
+
 /// folder/name, which must be a file that lies inside the folder when all links are followed:
 /// a recording from somebody else must not reach into the rest of the disk.
 fs::path resolve_inside(const fs::path& folder, const ImageLine& line, const fs::path& list) {
@@ -90,13 +111,13 @@ fs::path resolve_inside(const fs::path& folder, const ImageLine& line, const fs:
   if (failure) {
     throw InputError(list, line.line, "image " + file.string() + ": " + failure.message());
   }
-  const fs::path relative = target.lexically_relative(root);
-  if (relative.empty() || *relative.begin() == "..") {
+  if (!lies_inside(target, root)) {
     throw InputError(list, line.line,
-                     "image " + line.name + " leaves the folder " + folder.string());
+                     "image " + line.name + " leaves the folder " + folder.string() +
+                         by_link(folder, root, line.name));
   }
-  if (!fs::is_regular_file(target, failure)) {
-    throw InputError(list, line.line, "image " + file.string() + " does not exist");
+  if (const auto fault = config::fault_of_file(target)) {
+    throw InputError(list, line.line, "image " + file.string() + ": " + *fault);
   }
   return file;
 }
@@ -153,6 +174,9 @@ Sequence open_tum_folder(const fs::path& folder, const std::optional<fs::path>& 
 
   if (const auto file = optional_file(folder, "groundtruth.txt")) {
     sequence.ground_truth = read_ground_truth(*file);
+    if (sequence.ground_truth.empty()) {
+      config::log_warning(file->string() + ": no poses; the recording counts as one without truth");
+    }
   }
   if (const auto file = optional_file(folder, "subject.txt")) {
     sequence.subject = read_subject(*file);

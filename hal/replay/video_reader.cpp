@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "config/error.h"
+#include "config/input_file.h"
 
 namespace lumibox::hal {
 namespace {
@@ -26,9 +27,8 @@ void silence_libraries() {
 
 cv::VideoCapture open(const fs::path& file, const std::vector<int>& parameters) {
   silence_libraries();
-  std::error_code ignored;
-  if (!fs::is_regular_file(file, ignored)) {
-    throw config::InputError(file, "no such file; expected a video");
+  if (const auto fault = config::fault_of_file(file)) {
+    throw config::InputError(file, *fault + "; expected a video");
   }
   try {
     cv::VideoCapture capture(file.string(), cv::CAP_FFMPEG, parameters);

@@ -264,6 +264,7 @@ SceneSpec read_scene_file(const std::filesystem::path& file) {
     scene.textures.push_back(read_texture(table));
   }
   std::vector<CheckedTable> objects = root.tables("objects");
+  if (objects.empty()) root.fail("objects", "is missing; expected at least one [[objects]] to see");
   for (CheckedTable& table : objects) {
     scene.objects.push_back(read_object(table, file.parent_path()));
   }

@@ -48,7 +48,15 @@ TEST(Trajectory, ErrorIsInTheTruthsUnitsAndAShareOfItsExtent) {
   const auto error = compare_trajectories(estimate, truth);
   ASSERT_TRUE(error);
   EXPECT_NEAR(error->rmse, 0.5, 0.01);
-  EXPECT_NEAR(error->rmse_percent, 100.0 * error->rmse / 5.0, 1e-9);
+  EXPECT_NEAR(error->rmse_percent.value(), 100.0 * error->rmse / 5.0, 1e-9);
+}
+
+TEST(Trajectory, OfAPlaceThatNeverMovesHasNoExtentToTakeAShareOf) {
+  auto truth = helix(10);
+  for (auto& pose : truth) pose.world_from_camera.translation = {1.0, 2.0, 3.0};
+  const auto error = compare_trajectories(helix(10), truth);
+  ASSERT_TRUE(error);
+  EXPECT_FALSE(error->rmse_percent);
 }
 
 TEST(Trajectory, RotationErrorIsWhatIsLeftAfterTheWorldsTurn) {

@@ -206,7 +206,20 @@ TEST_F(BadSequence, PathThatLeavesTheFolder) {
   }
   fs::create_symlink(secret, recording_.folder() / "link.png");
   replace_line("rgb.txt", 3, "5.1 link.png");
-  EXPECT_THAT(complaint(), AllOf(HasSubstr("rgb.txt:3"), HasSubstr("leaves the folder")));
+  EXPECT_THAT(complaint(),
+              AllOf(HasSubstr("rgb.txt:3"), HasSubstr("leaves the folder"),
+                    HasSubstr("by the link " + (recording_.folder() / "link.png").string())));
+  fs::create_directory_symlink(elsewhere.path(), recording_.folder() / "away");
+  replace_line("rgb.txt", 3, "5.1 away/secret.png");
+  EXPECT_THAT(complaint(), HasSubstr("by the link " + (recording_.folder() / "away").string()));
+}
+
+TEST_F(BadSequence, PictureOrVideoThatIsNoFile) {
+  fs::create_directory(recording_.folder() / "folder.png");
+  replace_line("rgb.txt", 3, "5.1 folder.png");
+  EXPECT_THAT(complaint(),
+              AllOf(HasSubstr("rgb.txt:3"), HasSubstr("folder.png: a folder, not a file")));
+  EXPECT_EQ(complaint_about("/dev/null"), "/dev/null: not a file; expected a video");
 }
 
 TEST_F(BadSequence, LinkThatPointsToItself) {

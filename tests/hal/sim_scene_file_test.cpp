@@ -82,6 +82,14 @@ TEST(SimSceneFile, MeshMustBeAFile) {
               HasSubstr("/dev/full: not a file"));
 }
 
+TEST(SimSceneFile, WithoutAnObjectIsRefused) {
+  std::string text = testing::wall_scene();
+  const std::size_t objects = text.find("[[objects]]");
+  text.erase(objects, text.find("\n[", objects) - objects);
+  EXPECT_THAT(message_of([&] { testing::scene_of(text); }),
+              HasSubstr("objects: is missing; expected at least one"));
+}
+
 TEST(SimSceneFile, MeshIsReadAndItsMistakesHaveALine) {
   const lumibox::testing::TempDir folder;
   const auto scene_with = [&](const std::string& obj) {

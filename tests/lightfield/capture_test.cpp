@@ -167,6 +167,8 @@ TEST_F(BadCapture, DamagedPoints) {
   const std::string good = read_text(points);
   write_text(points, good.substr(0, good.size() - 1));
   EXPECT_THAT(load(), HasSubstr("points.ply: is truncated"));
+  write_text(points, "junk");
+  EXPECT_THAT(load(), HasSubstr("points.ply: is no PLY file"));
   write_text(points, "ply\nformat binary_big_endian 1.0\n");
   EXPECT_THAT(load(), HasSubstr("points.ply: not the header"));
   fs::remove(points);

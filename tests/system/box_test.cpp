@@ -190,7 +190,7 @@ double error_percent(const lightfield::LightField& light_field, const hal::Scene
     estimate.push_back({time_s, p.world_from_camera});
     truth.push_back({time_s, scene.world_from_camera(time_s)});
   }
-  return bench::compare_trajectories(estimate, truth).value().rmse_percent;
+  return bench::compare_trajectories(estimate, truth).value().rmse_percent.value();
 }
 
 /// What is on disk when the power goes, two thirds through the walk.
