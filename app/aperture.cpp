@@ -32,28 +32,22 @@ void Aperture::update(const Moment& moment, const Eigen::Vector3d& focus) {
   if (frames() == options_.frames) {
     kept_.erase(kept_.begin());
   }
-  kept_.push_back(perspective_of(moment, next_id_--));
+  kept_.push_back(with_id(moment, next_id_--));
 }
 
 LightFieldPicture Aperture::draw(const Moment& moment, const Eigen::Vector3d& focus,
                                  const config::Render& options) const {
   LightFieldPicture picture;
   picture.perspectives = kept_;
-  picture.perspectives.push_back(perspective_of(moment, next_id_));
+  picture.perspectives.push_back(with_id(moment, next_id_));
   picture.settings = render::augmented_settings_from(options, focus);
   picture.settings.k = static_cast<int>(picture.perspectives.size());
   return picture;
 }
 
-Perspective Aperture::perspective_of(const Moment& moment, int id) const {
-  Perspective perspective;
+Perspective Aperture::with_id(const Moment& moment, int id) const {
+  Perspective perspective = perspective_of(moment, camera_);
   perspective.id = id;
-  perspective.world_from_camera = *moment.tracked.world_from_camera;
-  perspective.timestamp_ns = moment.frame.timestamp_ns;
-  perspective.color = moment.frame.color;
-  perspective.camera = camera_;
-  perspective.keyframe = moment.tracked.keyframe;
-  perspective.keyframe_from_camera = moment.tracked.keyframe_from_camera;
   return perspective;
 }
 

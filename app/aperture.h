@@ -28,7 +28,7 @@ class Aperture {
                          const config::Render& options) const;
 
  private:
-  lightfield::Perspective perspective_of(const Moment& moment, int id) const;
+  lightfield::Perspective with_id(const Moment& moment, int id) const;
 
   std::shared_ptr<const geometry::Camera> camera_;
   config::Aperture options_;

@@ -10,6 +10,7 @@
 #include "geometry/pose.h"
 #include "hal/camera.h"
 #include "hal/frame.h"
+#include "lightfield/perspective.h"
 #include "tracking/map_view.h"
 #include "tracking/pose_refinement.h"
 #include "tracking/tracked_frame.h"
@@ -41,5 +42,10 @@ struct Moment {
     return fresh && tracked.state == tracking::TrackingState::Good && tracked.world_from_camera;
   }
 };
+
+/// The moment's picture as a perspective, without an id. Precondition: the moment has a pose;
+/// `camera` is the one that took the picture.
+lightfield::Perspective perspective_of(const Moment& moment,
+                                       std::shared_ptr<const geometry::Camera> camera);
 
 }  // namespace lumibox::app

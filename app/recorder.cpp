@@ -99,13 +99,7 @@ bool Recorder::accepts(const Moment& moment, double threshold) const {
 }
 
 void Recorder::record(const Moment& moment) {
-  Perspective perspective;
-  perspective.world_from_camera = *moment.tracked.world_from_camera;
-  perspective.timestamp_ns = moment.frame.timestamp_ns;
-  perspective.color = moment.frame.color;
-  perspective.camera = camera_;
-  perspective.keyframe = moment.tracked.keyframe;
-  perspective.keyframe_from_camera = moment.tracked.keyframe_from_camera;
+  Perspective perspective = perspective_of(moment, camera_);
   perspective.id = light_field_.add(perspective);
   if (moment.measurements != nullptr) {
     measurements_[perspective.id] = *moment.measurements;

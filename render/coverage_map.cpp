@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "lightfield/coverage.h"
+
 namespace lumibox::render {
 namespace {
 
@@ -122,9 +124,9 @@ void draw_outline(Strokes& strokes, const Projection& projection,
 /// Thesis 2.3: the centre projected onto the sphere along the line to S.
 void draw_dot(Strokes& strokes, const Projection& projection, const lightfield::Sphere& sphere,
               const Eigen::Vector3d& center, float radius, const Color& color) {
-  const Eigen::Vector3d from_subject = center - sphere.center;
-  if (!(from_subject.norm() > 0.0)) return;
-  const auto point = projection.project(from_subject.normalized());
+  const auto dot = lightfield::dot_on_sphere(sphere, center);
+  if (!dot) return;
+  const auto point = projection.project((*dot - sphere.center) / sphere.radius);
   if (!point) return;
   const float scale = projection.scale();
   const float opacity = std::max(point->opacity, 0.4F);
