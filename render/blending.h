@@ -24,8 +24,8 @@ double small_alpha(std::size_t rank, std::size_t k, double alpha);
 
 /// Wide aperture: a pixel's weighted sum of colours is divided by its sum of weights, or by this if
 /// that is larger: half of an average layer's weight. Pixels that the layers hardly cover so fade
-/// to black instead of being amplified. On a shape a twentieth: where a single picture reaches there
-/// is nothing to smooth.
+/// to black instead of being amplified. On a shape a twentieth: where a single picture reaches
+/// there is nothing to smooth.
 double least_total_weight(std::size_t layers, bool on_shape);
 
 /// Width of the faded border in pixels of a picture of this size: `feather_px`, but never more than

@@ -236,14 +236,6 @@ void Renderer::draw(const View& view, const std::vector<Perspective>& perspectiv
   impl_->draw(view, perspectives, settings, framebuffer);
 }
 
-void Renderer::draw_augmented(const View& view, const Perspective& live,
-                              const std::vector<Perspective>& recorded, const Settings& settings,
-                              unsigned framebuffer) {
-  std::vector<Perspective> all = recorded;
-  all.push_back(live);
-  impl_->draw(view, all, settings, framebuffer);
-}
-
 void Renderer::upload(const Perspective& perspective) {
   impl_->upload(perspective);
 }

@@ -23,14 +23,6 @@ class Renderer {
   void draw(const View& view, const std::vector<lightfield::Perspective>& perspectives,
             const Settings& settings, unsigned framebuffer);
 
-  /// The augmented aperture of thesis 2.2: the live picture as one more perspective among the
-  /// recorded ones, all fused on the plane through settings.focus. With a view at the live camera
-  /// that plane faces it. Settings come from augmented_settings_from(); `live` needs a pose, a
-  /// camera and a picture, its id does not matter.
-  void draw_augmented(const View& view, const lightfield::Perspective& live,
-                      const std::vector<lightfield::Perspective>& recorded,
-                      const Settings& settings, unsigned framebuffer);
-
   /// Uploads one picture ahead of its first use, so that the tick that reviews does not pay for it.
   void upload(const lightfield::Perspective& perspective);
 

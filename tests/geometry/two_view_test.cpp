@@ -7,7 +7,6 @@
 
 #include "geometry/essential.h"
 #include "geometry/homography.h"
-#include "geometry/plane.h"
 #include "geometry/two_view_scene.h"
 
 namespace lumibox::geometry {
@@ -40,19 +39,19 @@ TEST(Essential, RepeatedPairsAreHarmless) {
 
 TEST(Homography, ThatAPlaneInducesIsFittedAndTakenApart) {
   TwoViewScene scene(7);
-  const Plane plane{Vector3d(0.3, -0.2, -1.0).normalized(), -2.5};
+  const Vector3d normal = Vector3d(0.3, -0.2, -1.0).normalized();
   const Pose motion(exp_so3({0.1, -0.05, 0.2}), Vector3d(0.4, 0.1, -0.2));
-  const auto pairs = scene.observe(scene.on_plane(20, plane.normal, plane.offset), motion, 0.0);
+  const auto pairs = scene.observe(scene.on_plane(20, normal, -2.5), motion, 0.0);
   const auto fitted = fit_homography(pairs);
   ASSERT_TRUE(fitted);
-  const Matrix3d truth = *plane_homography(motion, plane);
+  const Matrix3d truth = motion.matrix3() + motion.translation * normal.transpose() / -2.5;
   EXPECT_LT((*fitted / fitted->norm() - truth / truth.norm()).norm(), 1e-9);
   double nearest = 4.0;
   for (const PlaneMotion& option : motions_of_homography(*fitted, pairs)) {
     nearest =
         std::min(nearest, angle_between(option.second_from_first.translation, motion.translation) +
                               option.second_from_first.rotation.angularDistance(motion.rotation) +
-                              angle_between(option.normal, -plane.normal));
+                              angle_between(option.normal, -normal));
   }
   EXPECT_LT(nearest, 1e-6);
 }

@@ -192,13 +192,12 @@ TEST_F(RendererTest, AugmentedApertureFusesTheLivePicture) {
     return test::photograph_perspective(
         id, world, camera, {Eigen::Quaterniond::Identity(), Eigen::Vector3d(x, y, -3.0)});
   };
-  const std::vector<Perspective> recorded = {at(0, 0.2, 0.0), at(1, -0.1, 0.2), at(2, -0.1, -0.2)};
   const Perspective live = at(-1, 0.05, 0.0);
+  const std::vector<Perspective> all = {at(0, 0.2, 0.0), at(1, -0.1, 0.2), at(2, -0.1, -0.2), live};
   const View view{camera, live.world_from_camera};
   const auto fused_at = [&](double depth) {
     const Settings settings = augmented_settings_from({}, {0.0, 0.0, depth});
-    renderer_->draw_augmented(view, live, recorded, settings, display_->framebuffer());
-    return display_->read_back();
+    return draw(view, all, settings);
   };
   hal::Image middle(160, 120, 1);
   for (int y = 30; y < 90; ++y) std::fill_n(middle.at(40, y), 80, 255);
