@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "render/sampling.h"
+
 namespace lumibox::render {
 namespace {
 
@@ -89,22 +91,6 @@ Level coarser(const Level& fine) {
   return coarse;
 }
 
-float bilinear(const std::vector<float>& values, int columns, int rows, float x, float y) {
-  x = std::clamp(x, 0.0F, static_cast<float>(columns - 1));
-  y = std::clamp(y, 0.0F, static_cast<float>(rows - 1));
-  const int left = static_cast<int>(x);
-  const int top = static_cast<int>(y);
-  const int right = std::min(left + 1, columns - 1);
-  const int bottom = std::min(top + 1, rows - 1);
-  const float a = x - static_cast<float>(left);
-  const float b = y - static_cast<float>(top);
-  const auto value = [&](int column, int row) {
-    return values[static_cast<std::size_t>(row * columns + column)];
-  };
-  return (1.0F - b) * ((1.0F - a) * value(left, top) + a * value(right, top)) +
-         b * ((1.0F - a) * value(left, bottom) + a * value(right, bottom));
-}
-
 /// Values at all corners of the finest level: its own where it has samples, else those of the
 /// coarser levels (Gortler et al., "The Lumigraph", SIGGRAPH 1996, section 3.4: pull and push).
 std::vector<float> filled(Level finest, float fallback) {
@@ -121,9 +107,9 @@ std::vector<float> filled(Level finest, float fallback) {
     for (int y = 0; y < level.rows; ++y) {
       for (int x = 0; x < level.columns; ++x) {
         const std::size_t i = level.index(x, y);
-        const float around =
-            bilinear(values, above.columns, above.rows, 0.5F * (static_cast<float>(x) - 0.5F),
-                     0.5F * (static_cast<float>(y) - 0.5F));
+        const float around = sample_bilinear(values, above.columns, above.rows,
+                                             0.5F * (static_cast<float>(x) - 0.5F),
+                                             0.5F * (static_cast<float>(y) - 0.5F));
         const float own = trust(level.weight[i]);
         finer[i] =
             own > 0.0F ? own * level.sum[i] / level.weight[i] + (1.0F - own) * around : around;
@@ -148,9 +134,9 @@ DepthGrid::DepthGrid(const View& view, const std::vector<Source>& sources, doubl
 }
 
 double DepthGrid::at(double u, double v) const {
-  return static_cast<double>(bilinear(inverse_depths_, columns_, rows_,
-                                      static_cast<float>(u / cell_),
-                                      static_cast<float>(v / cell_)));
+  return static_cast<double>(sample_bilinear(inverse_depths_, columns_, rows_,
+                                             static_cast<float>(u / cell_),
+                                             static_cast<float>(v / cell_)));
 }
 
 }  // namespace lumibox::render

@@ -39,4 +39,11 @@ class DepthGrid {
   std::vector<float> inverse_depths_;
 };
 
+/// What is known of the scene's shape for one view of some perspectives.
+struct Shape {
+  DepthGrid grid;
+  /// Of the perspectives, by index: what hides the shape from them. Null where there is none.
+  std::vector<std::shared_ptr<const DepthMap>> maps;
+};
+
 }  // namespace lumibox::render

@@ -70,6 +70,13 @@ double least(const float* costs, int count) {
 
 }  // namespace
 
+double DepthMap::along(const Eigen::Vector3d& ray) const {
+  const config::CameraProfile& c = camera.profile();
+  return static_cast<double>(sample_bilinear(inverse_depth, camera.width(), camera.height(),
+                                             static_cast<float>(c.fx * ray.x() / ray.z() + c.cx),
+                                             static_cast<float>(c.fy * ray.y() / ray.z() + c.cy)));
+}
+
 std::vector<std::size_t> depth_neighbours(const std::vector<Perspective>& perspectives,
                                           std::size_t index, const Eigen::Vector3d& focus) {
   std::vector<std::pair<double, std::size_t>> ranked;

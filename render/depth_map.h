@@ -15,6 +15,9 @@ struct DepthMap {
   geometry::Camera camera;           ///< pinhole; its pixels are the grid
   std::vector<float> inverse_depth;  ///< along the optical axis, 1 / world units, row by row
   std::vector<float> confidence;     ///< (0, 1]: how well the pictures agree there
+
+  /// Inverse depth that is seen along a ray in the camera's frame, in front of it.
+  double along(const Eigen::Vector3d& ray) const;
 };
 
 /// Indices of the perspectives whose pictures tell the depth in that of `index`: the nearest by

@@ -13,8 +13,8 @@ namespace {
 
 using lightfield::Perspective;
 
-constexpr std::size_t kMapsOfView = 4;  // more blur the shape
-constexpr int kPicturesOfView = 8;      // on a shape; the far ones hardly count
+constexpr std::size_t kMapsOfView = 4;      // more blur the shape
+constexpr std::size_t kPicturesOfView = 8;  // on a shape; the far ones hardly count
 constexpr std::size_t kMinPoints = 20;
 constexpr double kStray = 0.02;  // share of points that may be wrong, at either end
 
@@ -34,7 +34,7 @@ Settings ProxyGeometry::fit(Settings settings, Geometry geometry, const View& vi
     settings.focus = focal_point(view, settings.focus);
   } else if (geometry == Geometry::Mesh) {
     settings.shape = shape_of(view, perspectives, settings.focus);
-    if (settings.shape) settings.k = std::min(settings.k, kPicturesOfView);
+    if (settings.shape) settings.k = std::min(settings.k, static_cast<int>(kPicturesOfView));
   }
   return settings;
 }
@@ -54,8 +54,9 @@ Eigen::Vector3d ProxyGeometry::focal_point(const View& view,
   return view.world_from_camera * Eigen::Vector3d(0.0, 0.0, 2.0 / (farthest + nearest));
 }
 
-std::shared_ptr<const DepthGrid> ProxyGeometry::shape_of(
-    const View& view, const std::vector<Perspective>& perspectives, const Eigen::Vector3d& focus) {
+std::shared_ptr<const Shape> ProxyGeometry::shape_of(const View& view,
+                                                     const std::vector<Perspective>& perspectives,
+                                                     const Eigen::Vector3d& focus) {
   std::vector<std::pair<double, std::size_t>> ranked;
   for (std::size_t i = 0; i < perspectives.size(); ++i) {
     if (!perspectives[i].color || !perspectives[i].camera) continue;
@@ -70,16 +71,19 @@ std::shared_ptr<const DepthGrid> ProxyGeometry::shape_of(
   const double limit = count < ranked.size() ? ranked[count].first : limit_beyond(penalties);
   const std::vector<double> weights = wide_weights(penalties, limit, 1.0);
   std::vector<DepthGrid::Source> sources;
-  for (std::size_t i = 0; i < count; ++i) {
+  std::vector<std::shared_ptr<const DepthMap>> maps(perspectives.size());
+  // The nearest last: what is asked for last is made first.
+  for (std::size_t i = std::min<std::size_t>(kPicturesOfView, ranked.size()); i-- > 0;) {
     const std::size_t index = ranked[i].second;
-    if (weights[i] <= 0.0) continue;
-    if (auto map = maps_.map_of(perspectives, index, focus)) {
-      sources.push_back({std::move(map), perspectives[index].world_from_camera, weights[i]});
+    maps[index] = maps_.map_of(perspectives, index, focus);
+    if (i < count && weights[i] > 0.0 && maps[index]) {
+      sources.push_back({maps[index], perspectives[index].world_from_camera, weights[i]});
     }
   }
   if (sources.empty()) return nullptr;
   const Eigen::Vector3d eye = view.world_from_camera.translation;
-  return std::make_shared<DepthGrid>(view, sources, 1.0 / std::max((focus - eye).norm(), 1e-9));
+  const double fallback = 1.0 / std::max((focus - eye).norm(), 1e-9);
+  return std::make_shared<Shape>(DepthGrid(view, sources, fallback), std::move(maps));
 }
 
 }  // namespace lumibox::render

@@ -35,9 +35,9 @@ class ProxyGeometry {
 
  private:
   Eigen::Vector3d focal_point(const View& view, const Eigen::Vector3d& otherwise) const;
-  std::shared_ptr<const DepthGrid> shape_of(
-      const View& view, const std::vector<lightfield::Perspective>& perspectives,
-      const Eigen::Vector3d& focus);
+  std::shared_ptr<const Shape> shape_of(const View& view,
+                                        const std::vector<lightfield::Perspective>& perspectives,
+                                        const Eigen::Vector3d& focus);
 
   std::vector<Eigen::Vector3d> points_;
   DepthMaps maps_;

@@ -62,8 +62,11 @@ Contribution contribution_on_shape(const Eigen::Vector3d& pixel_of_view, double 
   const hal::Image& image = *perspective.color;
   const double fade = feather(*pixel, image.width(), image.height(), settings.feather_px);
   if (fade <= 0.0) return {};
-  return {sample_bilinear(image, *pixel), layer.weight * fade,
-          closeness(ray_of_view, ray_of_source)};
+  double close = closeness(ray_of_view, ray_of_source);
+  if (layer.map && inverse_depth > 0.0) {
+    close *= visibility(layer.map->along(ray_of_source), inverse_depth / ray_of_source.z());
+  }
+  return {sample_bilinear(image, *pixel), layer.weight * fade, close};
 }
 
 /// Thesis 3.2, wide aperture: weighted mean; on a shape the closer ones count more.
@@ -105,7 +108,7 @@ hal::Image render_reference(const View& view,
       for (std::size_t i = 0; i < layers.size(); ++i) {
         const lightfield::Perspective& perspective = perspectives[layers[i].perspective];
         contributions[i] = settings.shape ? contribution_on_shape(Eigen::Vector3d(u, v, 1.0),
-                                                                  settings.shape->at(u, v),
+                                                                  settings.shape->grid.at(u, v),
                                                                   layers[i], perspective, settings)
                                           : contribution(ray, layers[i], perspective, settings);
       }

@@ -9,6 +9,7 @@
 #include "render/blending.h"
 #include "render/depth_grid.h"
 #include "render/gl.h"
+#include "render/map_cache.h"
 #include "render/picture_cache.h"
 #include "render/shader_source.h"
 
@@ -63,8 +64,14 @@ double unit_of(const View& view, const Settings& settings) {
   return distance > 0.0 ? distance : 1.0;
 }
 
+/// Where a layer's pictures are on the GPU.
+struct Slots {
+  int picture = 0;
+  std::optional<MapCache::Slot> map;
+};
+
 LayerUniforms uniforms_of(const Layer& layer, const Perspective& perspective, const View& view,
-                          const Kind& kind, int slot, const Settings& settings) {
+                          const Kind& kind, const Slots& slots, const Settings& settings) {
   const config::CameraProfile& c = perspective.camera->profile();
   Eigen::Matrix<double, 4, 3> m;
   m.topRows<3>() = layer.source_from_pixel;
@@ -82,13 +89,20 @@ LayerUniforms uniforms_of(const Layer& layer, const Perspective& perspective, co
   u.from_x = vec4(m(0, 0), m(1, 0), m(2, 0), m(3, 0));
   u.from_y = vec4(m(0, 1), m(1, 1), m(2, 1), m(3, 1));
   u.from_1 = vec4(m(0, 2), m(1, 2), m(2, 2), m(3, 2));
-  u.picture =
-      vec4(width - 1, height - 1, slot, 1.0 / feather_width(width, height, settings.feather_px));
+  u.picture = vec4(width - 1, height - 1, slots.picture,
+                   1.0 / feather_width(width, height, settings.feather_px));
   const bool fisheye = c.model == config::LensModel::Fisheye;
   u.blend = vec4(layer.weight, c.k3, fold, fisheye ? 1.0 : 0.0);
   u.intrinsics = vec4(c.fx, c.fy, c.cx, c.cy);
   const Eigen::Vector3d shift = layer.shift / unit_of(view, settings);
   u.shift = vec4(shift.x(), shift.y(), shift.z(), 0.0);
+  if (kind.shape) {
+    const double size = slots.map ? layer.map->camera.profile().fx / c.fx : 0.0;
+    const double largest = slots.map ? slots.map->largest * unit_of(view, settings) : 0.0;
+    u.from_x[3] = slots.map ? static_cast<float>(slots.map->index) : 0.0F;
+    u.from_y[3] = static_cast<float>(size);
+    u.from_1[3] = static_cast<float>(largest);
+  }
   u.distortion = fisheye ? vec4(c.k1, c.k2, c.k3, c.k4) : vec4(c.k1, c.k2, c.p1, c.p2);
   return u;
 }
@@ -100,8 +114,8 @@ struct Variant {
   GLint texel_size = -1;
   GLint least_total_weight = -1;
   GLint stop = -1;
-
   GLint cells = -1;
+  GLint map_texel_size = -1;
 
   explicit Variant(const Kind& kind) {
     std::string prelude = "#define MAX_LAYERS " + std::to_string(kMaxLayers) + "\n";
@@ -109,7 +123,9 @@ struct Variant {
     if (kind.distortion) prelude += "#define DISTORTION\n";
     if (kind.shape) {
       prelude += "#define SHAPE\n#define FARTHER_PENALTY " + std::to_string(kFartherPenalty) +
-                 "\n#define LEAST_PENALTY " + std::to_string(kLeastPenalty) + "\n";
+                 "\n#define LEAST_PENALTY " + std::to_string(kLeastPenalty) + "\n#define BEFORE " +
+                 std::to_string(kBefore) + "\n#define HIDING " + std::to_string(kHiding) +
+                 "\n#define HIDDEN " + std::to_string(kHidden) + "\n";
     }
     prelude += shader_source("lens.glsl");
     program = gl::make_program("screen.vert", "light_field.frag", prelude);
@@ -122,7 +138,9 @@ struct Variant {
     glUniform1i(gl::uniform(program, "pictures"), 0);
     if (kind.shape) {
       cells = gl::uniform(program, "cells");
+      map_texel_size = gl::uniform(program, "map_texel_size");
       glUniform1i(gl::uniform(program, "inverse_depths"), 1);
+      glUniform1i(gl::uniform(program, "maps"), 2);
     }
   }
 };
@@ -161,7 +179,7 @@ class Renderer::Impl {
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, uniforms_.name());
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D_ARRAY, cache_.texture());
-    if (kind.shape) bind_shape(view, settings, variant.cells);
+    if (kind.shape) bind_shape(view, settings, variant);
     glBindVertexArray(vertex_array_.name());
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
@@ -183,20 +201,24 @@ class Renderer::Impl {
       height = std::max(height, perspectives[layer.perspective].color->height());
     }
     cache_.begin_view(layers.size(), width, height);
+    std::vector<const DepthMap*> maps;
+    for (const Layer& layer : layers) maps.push_back(layer.map.get());
+    if (kind.shape) maps_.begin_view(maps);
 
     std::vector<LayerUniforms> data;
     for (const Layer& layer : layers) {
       const Perspective& perspective = perspectives[layer.perspective];
-      const int slot = cache_.slot_of(perspective.color);
-      data.push_back(uniforms_of(layer, perspective, view, kind, slot, settings));
+      Slots slots{cache_.slot_of(perspective.color), std::nullopt};
+      if (layer.map) slots.map = maps_.slot_of(layer.map);
+      data.push_back(uniforms_of(layer, perspective, view, kind, slots, settings));
     }
     glBindBuffer(GL_UNIFORM_BUFFER, uniforms_.name());
     glBufferSubData(GL_UNIFORM_BUFFER, 0,
                     static_cast<GLsizeiptr>(data.size() * sizeof(LayerUniforms)), data.data());
   }
 
-  void bind_shape(const View& view, const Settings& settings, GLint cells) {
-    const DepthGrid& shape = *settings.shape;
+  void bind_shape(const View& view, const Settings& settings, const Variant& variant) {
+    const DepthGrid& shape = settings.shape->grid;
     std::vector<float> scaled = shape.inverse_depths();
     for (float& value : scaled) value *= static_cast<float>(unit_of(view, settings));
     glActiveTexture(GL_TEXTURE1);
@@ -207,10 +229,14 @@ class Renderer::Impl {
     // Corner i lies at pixel i * cell, in the middle of texel i; fragment rows go up.
     const double cell = shape.cell();
     const double last_row = view.camera.height() - 0.5;
-    glUniform4f(cells, static_cast<float>(1.0 / (cell * shape.columns())),
+    glUniform4f(variant.cells, static_cast<float>(1.0 / (cell * shape.columns())),
                 static_cast<float>(-1.0 / (cell * shape.rows())),
                 static_cast<float>((0.5 - 0.5 / cell) / shape.columns()),
                 static_cast<float>((0.5 + last_row / cell) / shape.rows()));
+    glActiveTexture(GL_TEXTURE2);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, maps_.texture());
+    glUniform2f(variant.map_texel_size, 1.0F / static_cast<float>(std::max(1, maps_.width())),
+                1.0F / static_cast<float>(std::max(1, maps_.height())));
     glActiveTexture(GL_TEXTURE0);
   }
 
@@ -224,6 +250,7 @@ class Renderer::Impl {
   gl::VertexArray vertex_array_;
   gl::Buffer uniforms_;
   PictureCache cache_;
+  MapCache maps_;
   gl::Texture shape_;  ///< inverse depths of the view drawn last
   std::array<std::optional<Variant>, 8> variants_;
 };

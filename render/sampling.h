@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
+#include <vector>
 
 #include "hal/image.h"
 
@@ -23,6 +25,24 @@ inline Eigen::Vector3d sample_bilinear(const hal::Image& image, const Eigen::Vec
   const double b = pixel.y() - y0;
   return (1.0 - b) * ((1.0 - a) * texel(image, x0, y0) + a * texel(image, x1, y0)) +
          b * ((1.0 - a) * texel(image, x0, y1) + a * texel(image, x1, y1));
+}
+
+/// Bilinear interpolation of values on a grid, row by row; beyond the grid its border goes on.
+inline float sample_bilinear(const std::vector<float>& values, int columns, int rows, float x,
+                             float y) {
+  x = std::clamp(x, 0.0F, static_cast<float>(columns - 1));
+  y = std::clamp(y, 0.0F, static_cast<float>(rows - 1));
+  const int left = static_cast<int>(x);
+  const int top = static_cast<int>(y);
+  const int right = std::min(left + 1, columns - 1);
+  const int bottom = std::min(top + 1, rows - 1);
+  const float a = x - static_cast<float>(left);
+  const float b = y - static_cast<float>(top);
+  const auto value = [&](int column, int row) {
+    return values[static_cast<std::size_t>(row * columns + column)];
+  };
+  return (1.0F - b) * ((1.0F - a) * value(left, top) + a * value(right, top)) +
+         b * ((1.0F - a) * value(left, bottom) + a * value(right, bottom));
 }
 
 }  // namespace lumibox::render

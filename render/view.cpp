@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "render/blending.h"
+#include "render/depth_grid.h"
 
 namespace lumibox::render {
 namespace {
@@ -99,6 +100,7 @@ std::vector<Layer> visible_layers(const View& view,
                                                 : make_layer(view, perspective, focus);
     if (!layer) continue;
     layer->perspective = i;
+    if (settings.shape && i < settings.shape->maps.size()) layer->map = settings.shape->maps[i];
     layer->penalty = geometry::angle_between(towards_view, perspective.center() - focus);
     layers.push_back(*layer);
   }
@@ -127,6 +129,12 @@ double closeness(const Eigen::Vector3d& ray_of_view, const Eigen::Vector3d& ray_
   const double farther = std::max(0.0, source_length / view_length - 1.0);
   const double penalty = angle + kFartherPenalty * farther + kLeastPenalty;
   return 1.0 / (penalty * penalty * penalty);
+}
+
+double visibility(double seen, double inverse_depth) {
+  const double hiding =
+      std::clamp((seen / inverse_depth - kBefore) / (kHiding - kBefore), 0.0, 1.0);
+  return 1.0 + (kHidden - 1.0) * hiding * hiding * (3.0 - 2.0 * hiding);
 }
 
 Settings settings_from(const config::Render& options, Aperture aperture,

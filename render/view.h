@@ -14,7 +14,8 @@ namespace lumibox::render {
 
 enum class Aperture { Small, Wide };
 
-class DepthGrid;
+struct DepthMap;
+struct Shape;
 
 /// The requested perspective p_req of thesis 3: a pinhole camera. Distortion of `camera` is
 /// ignored.
@@ -38,7 +39,7 @@ struct Settings {
   double small_aperture_stop = 0.004;               ///< transmittance at which a pixel is done
   /// The scene's shape in the view: pictures are projected onto that instead of planes, and at each
   /// pixel those count most that see it nearly as the view does; `aperture` means nothing then.
-  std::shared_ptr<const DepthGrid> shape;
+  std::shared_ptr<const Shape> shape;
 };
 
 /// Settings from the configuration, focus at S.
@@ -64,17 +65,28 @@ struct Layer {
   /// With a shape instead of planes: source ~ source_from_pixel * (u, v, 1) + inverse depth *
   /// shift, where source_from_pixel only turns. Zero with planes.
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+  std::shared_ptr<const DepthMap> map;  ///< what hides a shape from it; may be null
 };
 
-inline constexpr double kFartherPenalty = 0.1;  ///< radians for twice the distance
-inline constexpr double kLeastPenalty =
-    0.004;  ///< radians; at a recorded view it counts nearly alone
+/// Radians for twice the distance.
+inline constexpr double kFartherPenalty = 0.1;
+/// Radians; where the view is a recorded one, that counts nearly alone.
+inline constexpr double kLeastPenalty = 0.004;
+/// Inverse depths, relative to that of a point, between which what is seen comes to hide it.
+inline constexpr double kBefore = 1.05;
+inline constexpr double kHiding = 1.25;
+/// Weight of a perspective from which a point is hidden, for where it is hidden from all.
+inline constexpr double kHidden = 0.01;
 
 /// What a pixel of a shape makes of a perspective that sees it: the view's ray to it and the
 /// perspective's, both in its camera, any lengths in the ratio of the distances. Unstructured
 /// lumigraph rendering (Buehler et al., SIGGRAPH 2001), with a penalty for the angle between the
 /// two and for seeing it from farther away; a weight that grows as the penalty falls.
 double closeness(const Eigen::Vector3d& ray_of_view, const Eigen::Vector3d& ray_of_source);
+
+/// Whether a perspective that sees something at inverse depth `seen` sees a point that would be at
+/// `inverse_depth` there: from 1 smoothly to kHidden.
+double visibility(double seen, double inverse_depth);
 
 /// Layers of a view in order of increasing penalty: selection, proxy planes and weights of
 /// thesis 3. Perspectives without a picture and those whose plane cannot be seen from the view

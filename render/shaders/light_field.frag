@@ -5,7 +5,8 @@
 
 struct Layer {
   // (source.xyz, before_view) = from_x * x + from_y * y + from_1 at gl_FragCoord. The source is in
-  // pixels, or with DISTORTION or SHAPE in normalised coordinates; with SHAPE at infinity.
+  // pixels, or with DISTORTION or SHAPE in normalised coordinates; with SHAPE at infinity, and w is
+  // of its depth map: slot, size in pixels of the picture (0 if there is none), largest sample.
   vec4 from_x;
   vec4 from_y;
   vec4 from_1;
@@ -27,6 +28,8 @@ uniform sampler2DArray pictures;
 #ifdef SHAPE
 uniform sampler2D inverse_depths;  // at the corners of cells
 uniform vec4 cells;                // texture coordinates = gl_FragCoord.xy * cells.xy + cells.zw
+uniform sampler2DArray maps;
+uniform vec2 map_texel_size;
 #endif
 
 out vec4 color;
@@ -42,6 +45,25 @@ float closeness(vec3 ray_of_view, vec3 ray_of_source) {
   return near * near * near;
 }
 
+// render::visibility().
+float visibility(float seen, float inverse_depth) {
+  float hiding = clamp((seen / inverse_depth - BEFORE) / (HIDING - BEFORE), 0.0, 1.0);
+  return mix(1.0, HIDDEN, hiding * hiding * (3.0 - 2.0 * hiding));
+}
+
+// Of a point of layer i that is at source = normalised coordinates times z.
+float visibility_of(int i, vec3 source, float inverse_depth) {
+  float size = layers[i].from_y.w;
+  if (size <= 0.0 || inverse_depth <= 0.0) return 1.0;
+  vec2 pixel = layers[i].intrinsics.xy * (source.xy / source.z) + layers[i].intrinsics.zw;
+  vec2 at = (pixel + 0.5) * size * map_texel_size;
+  vec2 least = 0.5 * map_texel_size;
+  vec2 most = (layers[i].picture.xy + 1.0) * size * map_texel_size - least;
+  at = clamp(at, least, most);
+  float seen = textureLod(maps, vec3(at, layers[i].from_x.w), 0.0).r * layers[i].from_1.w;
+  return visibility(seen, inverse_depth / source.z);
+}
+
 float inverse_depth() {
   return textureLod(inverse_depths, gl_FragCoord.xy * cells.xy + cells.zw, 0.0).r;
 }
@@ -54,7 +76,7 @@ float seen(int i, float inverse_depth, out vec2 pixel, out float near) {
                 layers[i].from_1;
 #ifdef SHAPE
   vec3 ray_of_view = source.xyz;
-  source.xyz += inverse_depth * layers[i].shift.xyz;
+  source = vec4(source.xyz + inverse_depth * layers[i].shift.xyz, 1.0);
 #endif
   bool visible = source.z > 0.0 && source.w > 0.0;
   pixel = source.xy / source.z;
@@ -69,7 +91,7 @@ float seen(int i, float inverse_depth, out vec2 pixel, out float near) {
   vec2 fade = clamp(inside, 0.0, 1.0);
   fade = fade * fade * (3.0 - 2.0 * fade);
 #ifdef SHAPE
-  near = closeness(ray_of_view, source.xyz);
+  near = closeness(ray_of_view, source.xyz) * visibility_of(i, source.xyz, inverse_depth);
 #else
   near = 1.0;
 #endif

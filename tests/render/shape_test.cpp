@@ -172,8 +172,9 @@ TEST(DepthGrid, IsBilinearBetweenCorners) {
   Settings settings;
   settings.focus = kSubject;
   const View view = view_from({0.1, 0.1, -4.0});
-  const auto grid = proxy.fit(settings, Geometry::Mesh, view, perspectives).shape;
-  ASSERT_TRUE(grid);
+  const auto shape = proxy.fit(settings, Geometry::Mesh, view, perspectives).shape;
+  ASSERT_TRUE(shape);
+  const DepthGrid* grid = &shape->grid;
   const double c = grid->cell();
   const double middle = grid->at(10.5 * c, 7.5 * c);
   const double corners = grid->at(10 * c, 7 * c) + grid->at(11 * c, 7 * c) +
@@ -192,6 +193,57 @@ TEST(Closeness, FallsWithAngleAndDistance) {
   }
   EXPECT_LT(closeness(ray, 2.0 * ray), closeness(ray, ray));
   EXPECT_EQ(closeness(ray, 0.5 * ray), closeness(ray, ray)) << "nearer is no worse";
+}
+
+TEST(Visibility, FallsSmoothlyWhereSomethingNearerIsSeen) {
+  EXPECT_EQ(visibility(0.2, 0.25), 1.0) << "farther: it is seen through";
+  EXPECT_EQ(visibility(0.25, 0.25), 1.0);
+  EXPECT_NEAR(visibility(0.5, 0.25), kHidden, 1e-12);
+  const double middle = 0.5 * (kBefore + kHiding);
+  EXPECT_NEAR(visibility(0.25 * middle, 0.25), 0.5 * (1.0 + kHidden), 1e-12);
+}
+
+// Beside a pillar a picture taken from the left does not see what a view from the right sees of the
+// wall: with its map it keeps the pillar to itself, without it paints the pillar onto the wall.
+TEST(ProxyGeometry, WhatHidesTheWallIsNotPaintedOnIt) {
+  const geometry::Camera camera = test::make_camera(160, 120);
+  const test::World world = [](const test::Ray& ray) {
+    const auto at = [&](double z) { return (z - ray.origin.z()) / ray.direction.z(); };
+    const double x = (ray.origin + at(0.0) * ray.direction).x();
+    return std::abs(x) < 0.15 ? Vector3d(1.0, 0.0, 0.0) : Vector3d(0.0, 0.0, 1.0);
+  };
+  const auto taken_from = [&](int id, double x) {
+    return test::photograph_perspective(id, world, camera,
+                                        {Eigen::Quaterniond::Identity(), Vector3d(x, 0.0, -2.0)});
+  };
+  const auto depths_from = [&](double x) {  // pillar at 2, wall at 4
+    auto map = std::make_shared<DepthMap>();
+    map->camera = camera;
+    for (int v = 0; v < 120; ++v) {
+      for (int u = 0; u < 160; ++u) {
+        const bool pillar = std::abs(x + 2.0 * ray_at(camera, u, v).x()) < 0.15;
+        map->inverse_depth.push_back(pillar ? 0.5F : 0.25F);
+        map->confidence.push_back(1.0F);
+      }
+    }
+    return map;
+  };
+  const std::vector<Perspective> both{taken_from(0, 0.5), taken_from(1, -0.6)};
+  const View view{camera, {Eigen::Quaterniond::Identity(), Vector3d(0.0, 0.0, -2.0)}};
+  Settings settings;
+  settings.focus = Vector3d(0.0, 0.0, 2.0);
+  const DepthGrid grid(view, {{depths_from(0.0), view.world_from_camera, 1.0}}, 0.25);
+  const auto red_on_the_wall = [&](const Shape& shape) {
+    settings.shape = std::make_shared<Shape>(shape);
+    const hal::Image picture = render_reference(view, both, settings);
+    int most = 0;
+    for (int u = 20; u < 140; ++u) {
+      if (std::abs(u - 79.5) > 20.0) most = std::max<int>(most, picture.at(u, 60)[0]);
+    }
+    return most;
+  };
+  EXPECT_GT(red_on_the_wall({grid, {}}), 60);
+  EXPECT_LT(red_on_the_wall({grid, {depths_from(0.5), depths_from(-0.6)}}), 12);
 }
 
 TEST(ProxyGeometry, FocalPlaneLiesAtTheHarmonicMean) {
@@ -228,9 +280,9 @@ TEST(ProxyGeometry, AShapeIsLikerThanPlanes) {
   EXPECT_GT(mesh, plane + 4.0) << plane << " dB with planes";
 }
 
-// Where the sets of maps and of pictures change, too. At depths that are wrong a picture may slide
-// quickly (31 grey levels in 0.01 degrees, at one pixel), but a tenth of the step is a tenth of the
-// change: nothing jumps.
+// Where the sets of maps and of pictures change, too. At edges, whose depths are uncertain, a
+// picture may slide quickly (74 grey levels in 0.01 degrees, at one pixel of a small picture), but
+// a tenth of the step is a tenth of the change: nothing jumps.
 TEST(ProxyGeometry, NothingPopsAsTheViewMoves) {
   const auto perspectives = around_a_ball(test::make_camera(96, 72), 12);
   ProxyGeometry proxy({}, Estimating::AtOnce);
@@ -254,8 +306,8 @@ TEST(ProxyGeometry, NothingPopsAsTheViewMoves) {
   for (int i = 0; i < 60; ++i) {
     const double angle = -0.2 + 0.006 * i;
     const double step = 0.01 * std::numbers::pi / 180.0;
-    EXPECT_LE(largest_change(angle, angle + step), 35) << angle;
-    EXPECT_LE(largest_change(angle, angle + 0.1 * step), 5) << angle;
+    EXPECT_LE(largest_change(angle, angle + step), 85) << angle;
+    EXPECT_LE(largest_change(angle, angle + 0.1 * step), 12) << angle;
   }
   // Exactly where one perspective takes the place of another among the four nearest.
   const auto nearest_four = [&](double angle) {
@@ -303,7 +355,7 @@ TEST(ProxyGeometry, HardViewsStayFinite) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const View view{test::make_camera(48, 36), poses[i]};
     const Settings fit = proxy.fit(settings, Geometry::Mesh, view, perspectives);
-    for (const float rho : fit.shape->inverse_depths()) {
+    for (const float rho : fit.shape->grid.inverse_depths()) {
       ASSERT_TRUE(std::isfinite(rho) && rho >= 0.0F) << "view " << i;
     }
     render_reference(view, perspectives, fit);

@@ -1,0 +1,54 @@
+#include "render/map_cache.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lumibox::render {
+namespace {
+
+constexpr std::size_t kLeastSlots = 32;  // a view needs eight; the next view needs most of them too
+
+}  // namespace
+
+void MapCache::begin_view(const std::vector<const DepthMap*>& maps) {
+  ++view_;
+  int width = width_;
+  int height = height_;
+  for (const DepthMap* map : maps) {
+    if (map == nullptr) continue;
+    width = std::max(width, map->camera.width());
+    height = std::max(height, map->camera.height());
+  }
+  const std::size_t slots = std::max(kLeastSlots, maps.size());
+  if (width == width_ && height == height_ && slots <= slots_.size()) return;
+  width_ = width;
+  height_ = height;
+  slots_.assign(slots, {});
+  texture_ = gl::make_texture(GL_TEXTURE_2D_ARRAY);
+  glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_R8, std::max(width_, 1), std::max(height_, 1),
+                 static_cast<GLsizei>(slots));
+}
+
+MapCache::Slot MapCache::slot_of(const std::shared_ptr<const DepthMap>& map) {
+  auto slot = std::ranges::find_if(slots_, [&](const Held& h) { return h.map.lock() == map; });
+  if (slot == slots_.end()) {
+    slot = std::ranges::min_element(slots_, {}, &Held::last_view);
+    const auto largest = *std::ranges::max_element(map->inverse_depth);
+    slot->map = map;
+    slot->largest = static_cast<double>(largest);
+    shares_.clear();
+    for (const float rho : map->inverse_depth) {
+      const float share = largest > 0.0F ? std::max(rho, 0.0F) / largest : 0.0F;
+      shares_.push_back(static_cast<std::uint8_t>(std::lround(255.0F * share)));
+    }
+    glBindTexture(GL_TEXTURE_2D_ARRAY, texture_.name());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, static_cast<GLint>(slot - slots_.begin()),
+                    map->camera.width(), map->camera.height(), 1, GL_RED, GL_UNSIGNED_BYTE,
+                    shares_.data());
+  }
+  slot->last_view = view_;
+  return {static_cast<int>(slot - slots_.begin()), slot->largest};
+}
+
+}  // namespace lumibox::render

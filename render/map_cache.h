@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "render/depth_map.h"
+#include "render/gl.h"
+
+namespace lumibox::render {
+
+/// Depth maps on the GPU, as PictureCache has pictures: the slots of one texture array, eight bits
+/// per sample, as a share of the map's largest inverse depth.
+class MapCache {
+ public:
+  /// Starts a view of these maps: what was handed out before may be overwritten. Null ones count
+  /// for nothing.
+  void begin_view(const std::vector<const DepthMap*>& maps);
+
+  struct Slot {
+    int index = 0;
+    double largest = 0.0;  ///< inverse depth, of which the samples are shares
+  };
+  /// Where a map is, uploaded if it is not there; valid until the next begin_view().
+  Slot slot_of(const std::shared_ptr<const DepthMap>& map);
+
+  GLuint texture() const { return texture_.name(); }
+  int width() const { return width_; }    ///< samples of a slot
+  int height() const { return height_; }  ///< samples of a slot
+
+ private:
+  struct Held {
+    std::weak_ptr<const DepthMap> map;
+    double largest = 0.0;
+    std::uint64_t last_view = 0;
+  };
+
+  gl::Texture texture_;
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<Held> slots_;
+  std::uint64_t view_ = 0;
+  std::vector<std::uint8_t> shares_;  ///< of the map being uploaded
+};
+
+}  // namespace lumibox::render
