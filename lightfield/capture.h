@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -22,11 +23,14 @@ struct Capture {
 /// config::InputError that names the file and what was expected.
 Capture load_capture(const std::filesystem::path& folder);
 
+/// Points in world of what perspectives show, as find_scene_points.
+using PointFinder = std::function<std::vector<Eigen::Vector3d>(const std::vector<Perspective>&)>;
+
 /// Reads SOURCE, which is a nerfstudio or instant-ngp transforms.json (or its folder), or a folder
 /// with a COLMAP model (text or binary; the folder itself, its sparse/0 or its sparse; images
 /// beside it or in images/). Where the source names no subject, S is the point nearest to all
-/// optical axes. Errors as load_capture.
-Capture import_capture(const std::filesystem::path& source);
+/// optical axes. Errors as load_capture. Where it has no points, `find_points` is asked for some.
+Capture import_capture(const std::filesystem::path& source, const PointFinder& find_points = {});
 
 /// Writes a capture folder that load_capture reads. Pictures whose original file exists are copied
 /// byte for byte, others become JPEGs of `jpeg_quality`. transforms.json comes last: a folder that

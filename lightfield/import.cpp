@@ -40,12 +40,13 @@ Source read_source(const fs::path& path) {
 
 }  // namespace
 
-Capture import_capture(const fs::path& path) {
+Capture import_capture(const fs::path& path, const PointFinder& find_points) {
   Source source = read_source(path);
   if (source.perspectives.empty()) throw config::InputError(path, "holds no pictures");
   for (Perspective& perspective : source.perspectives) {
     perspective.color = read_picture(source.folder / perspective.file, *perspective.camera);
   }
+  if (source.points.empty() && find_points) source.points = find_points(source.perspectives);
   if (!source.subject) source.subject = guess_subject(source.perspectives, source.points);
   Capture capture;
   // "." because empty means that there are no originals.

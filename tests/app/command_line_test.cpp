@@ -66,6 +66,8 @@ std::string small_capture(const Recording& recording) {
   const std::string capture = (recording.folder() / "capture").string();
   const Outcome outcome = lumibox("import " + file.string() + " " + capture);
   EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("2 perspectives and 0 points in"));
+  EXPECT_THAT(outcome.err, HasSubstr("no points could be found"));  // two pictures are too few
   return capture;
 }
 

@@ -206,6 +206,28 @@ TEST(ImportTransforms, PlyOfOthersIsRead) {
   EXPECT_EQ(capture.points[1], Eigen::Vector3d(-4.5, 0.5, 6.0));
 }
 
+TEST(ImportTransforms, AsksForPointsOnlyWhereThereAreNone) {
+  OneFrame source;
+  std::size_t asked = 0;
+  const PointFinder finder = [&](const std::vector<Perspective>& perspectives) {
+    asked += perspectives.size();
+    EXPECT_FALSE(perspectives.at(0).color->empty());
+    return std::vector<Eigen::Vector3d>{{0.0, 0.0, -7.0}};
+  };
+  source.import("\"fl_x\":20,", "");
+  Capture capture = import_capture(source.folder_ / "transforms.json", finder);
+  EXPECT_EQ(asked, 1U);
+  ASSERT_EQ(capture.points.size(), 1U);
+  EXPECT_EQ(capture.light_field.subject()->center.z(), -7.0);  // the guess knows them
+  write_text(source.folder_ / "sparse.ply",
+             "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+             "property float z\nend_header\n1 2 3\n");
+  source.import("\"fl_x\":20,\"ply_file_path\":\"sparse.ply\",", "");
+  capture = import_capture(source.folder_ / "transforms.json", finder);
+  EXPECT_EQ(asked, 1U);
+  EXPECT_EQ(capture.points.at(0), Eigen::Vector3d(1.0, 2.0, 3.0));
+}
+
 /// Spoils a few bytes of a valid file.
 std::string mutated(std::string bytes) {
   const int changes = *rc::gen::inRange(1, 4);
