@@ -17,7 +17,7 @@ constexpr int kLongerSide = 1000;         // pixels, of the picture that feature
 constexpr int kSmallestSide = 16;         // pixels: below it there is no room for a descriptor
 constexpr double kToleranceShare = 2e-3;  // of the longer side: what poses of others are good to
 constexpr double kMinTolerance = 1.0;     // pixels: SIFT's own error and some more
-constexpr double kContrast = 0.007;        // half of Lowe's: walls and floors count, too
+constexpr double kContrast = 0.007;       // Lowe's is 0.04, but walls and floors count, too
 constexpr double kEdge = 10.0;            // Lowe's
 constexpr int kCells = 24;                // along the longer side, to spread features over
 // OpenCV doubles the picture first and takes pixel 2x for x, where its interpolation has put what

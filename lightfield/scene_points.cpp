@@ -77,7 +77,7 @@ std::vector<View> make_views(const std::vector<Perspective>& perspectives,
 std::vector<Eigen::Vector3d> find_scene_points(const std::vector<Perspective>& perspectives,
                                                const ProgressReport& progress) {
   const auto pairs = neighbouring_pairs(perspectives);
-  if (perspectives.size() < 3 || pairs.empty()) return {};
+  if (pairs.empty()) return {};
   const auto total = static_cast<std::int64_t>(perspectives.size() + pairs.size());
   std::int64_t done = 0;
   const auto advance = [&] {

@@ -228,6 +228,51 @@ TEST(EpipolarMatching, FindsTheSameInAPictureThatIsTurned) {
   }
 }
 
+/// A feature at a pixel of a 240x180 picture; those of one `kind` look alike.
+void add_feature(const Eigen::Vector2d& pixel, std::uint8_t kind, Features* features) {
+  features->pixels.push_back(pixel);
+  features->bearings.push_back(
+      camera_with(0.0).unproject(pixel).value().homogeneous().normalized());
+  Descriptor descriptor{};
+  descriptor[kind] = 250;
+  // All of a kind are equally alike.
+  descriptor[64U + static_cast<std::size_t>(pixel.x()) % 64U] = 10;
+  features->descriptors.push_back(descriptor);
+  features->tolerance_px = 1.0;
+  features->tolerance_rad = 1.0 / 210.0;
+}
+
+TEST(EpipolarMatching, LeavesAloneWhatIsTwiceOnTheLine) {
+  const geometry::Pose at_a;
+  const geometry::Pose at_b(Eigen::Quaterniond::Identity(), {0.2, 0.0, 0.0});
+  using Pixels = std::vector<Eigen::Vector2d>;
+  const auto matches = [&](const Pixels& in_a, const Pixels& in_b) {
+    Features a;
+    Features b;
+    add_feature({100.0, 40.0}, 0, &a);
+    add_feature({90.0, 40.4}, 0, &b);
+    for (const Eigen::Vector2d& pixel : in_a) add_feature(pixel, 1, &a);
+    for (const Eigen::Vector2d& pixel : in_b) add_feature(pixel, 1, &b);
+    return match_along_epipolar_lines(a, at_a, b, at_b);
+  };
+  const Match other{0, 0};
+  using ::testing::ElementsAre;
+  EXPECT_THAT(matches({{120.0, 90.0}}, {{110.0, 90.5}}), ElementsAre(other, Match{1, 1}));
+  EXPECT_THAT(matches({{120.0, 90.0}}, {{110.0, 90.0}, {95.0, 90.0}}), ElementsAre(other));
+  EXPECT_THAT(matches({{120.0, 90.0}, {135.0, 90.0}}, {{110.0, 90.0}}), ElementsAre(other));
+  // A repetition that the other picture cuts off, seen from either side: at its edge, and where
+  // it would be behind the cameras.
+  EXPECT_THAT(matches({{120.0, 90.0}, {4.0, 90.0}}, {{110.0, 90.0}}), ElementsAre(other));
+  EXPECT_THAT(matches({{120.0, 90.0}}, {{110.0, 90.0}, {235.0, 90.0}}), ElementsAre(other));
+  // Off the line or at the same place it does no harm; alone there, or behind the cameras, it is
+  // no match.
+  EXPECT_THAT(matches({{120.0, 90.0}}, {{110.0, 90.0}, {95.0, 120.0}}),
+              ElementsAre(other, Match{1, 1}));
+  EXPECT_THAT(matches({{120.0, 90.0}}, {{110.0, 90.0}, {111.0, 90.0}}), ::testing::SizeIs(2));
+  EXPECT_THAT(matches({{120.0, 90.0}}, {{110.0, 94.0}}), ElementsAre(other));
+  EXPECT_THAT(matches({{120.0, 90.0}}, {{130.0, 90.0}}), ElementsAre(other));
+}
+
 /// A bright spot with a smooth edge, in the middle of nothing.
 Perspective spot_at(const Eigen::Vector2d& middle, int width, int height, double sigma) {
   Perspective perspective;
@@ -292,7 +337,13 @@ TEST(Neighbours, AreNearAndLookTheSameWay) {
   for (const auto& [a, b] : pairs) {
     EXPECT_LE(std::min(b - a, a + ring.size() - b), 12U);
   }
-  for (Perspective& perspective : ring) perspective.world_from_camera.translation.setZero();
+  ring.resize(1);
+  ring.push_back(ring[0]);
+  ring[1].world_from_camera = {geometry::exp_so3({0.0, 1.2, 0.0}), Eigen::Vector3d::Zero()};
+  EXPECT_TRUE(neighbouring_pairs(ring).empty());  // they look too far apart
+  ring[1].world_from_camera.rotation = geometry::exp_so3({0.0, 0.9, 0.0});
+  EXPECT_EQ(neighbouring_pairs(ring).size(), 1U);
+  ring[1].world_from_camera.translation = ring[0].world_from_camera.translation;
   EXPECT_TRUE(neighbouring_pairs(ring).empty());
 }
 
