@@ -102,7 +102,8 @@ DepthMap estimate_depth(const Perspective& perspective,
   std::vector<const SmallPicture*> compared;
   for (const SmallPicture& other : pictures) compared.push_back(&other);
 
-  const double distance = (focus - perspective.center()).norm();
+  // A perspective at S itself has no neighbours, and must only stay finite.
+  const double distance = std::max((focus - perspective.center()).norm(), 1e-6);
   const CostVolume costs(picture, compared, kNearest / distance, kDepths);
   const CostVolume aggregated = costs.aggregated(picture);
   DepthMap map{picture.camera, {}, {}};
