@@ -208,6 +208,12 @@ Eigen::Vector2d Camera::distort(const Eigen::Vector2d& normalised) const {
   return {profile_.fx * d.x() + profile_.cx, profile_.fy * d.y() + profile_.cy};
 }
 
+Eigen::Matrix3d Camera::pinhole_matrix() const {
+  Eigen::Matrix3d m;
+  m << profile_.fx, 0.0, profile_.cx, 0.0, profile_.fy, profile_.cy, 0.0, 0.0, 1.0;
+  return m;
+}
+
 std::optional<Eigen::Vector2d> Camera::corner_beyond_fold() const {
   if (profile_.model == config::LensModel::Fisheye) return std::nullopt;
   for (const double x : {0.0, profile_.width - 1.0}) {

@@ -44,6 +44,9 @@ class Camera {
   /// itself.
   std::optional<Eigen::Vector2d> corner_beyond_fold() const;
 
+  /// Pixel of undistorted normalised coordinates, both homogeneous, as if there were no distortion.
+  Eigen::Matrix3d pinhole_matrix() const;
+
   /// True if the pixel lies inside the image, at least `border` pixels from the outermost centres.
   bool contains(const Eigen::Vector2d& pixel, double border = 0.0) const {
     return pixel.x() >= border && pixel.y() >= border && pixel.x() <= profile_.width - 1 - border &&

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "hal/new_folder.h"
-#include "lightfield/descriptor.h"
+#include "lightfield/file_descriptor.h"
 
 namespace lumibox::lightfield {
 namespace {
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 using FolderId = std::pair<dev_t, ino_t>;
 
-FolderId id_of(const Descriptor& folder, const fs::path& path) {
+FolderId id_of(const FileDescriptor& folder, const fs::path& path) {
   struct stat status {};
   if (::fstat(folder.get(), &status) != 0) fail_at(path, "cannot be read", errno);
   return {status.st_dev, status.st_ino};
@@ -30,7 +30,7 @@ FolderId id_of(const Descriptor& folder, const fs::path& path) {
 class LockedFolders {
  public:
   FolderId add(const fs::path& path) {
-    auto folder = std::make_unique<const Descriptor>(path, O_RDONLY | O_DIRECTORY, path);
+    auto folder = std::make_unique<const FileDescriptor>(path, O_RDONLY | O_DIRECTORY, path);
     const FolderId id = id_of(*folder, path);
     const std::lock_guard guard(mutex_);
     Locked& locked = locked_[id];
@@ -53,7 +53,7 @@ class LockedFolders {
 
  private:
   struct Locked {
-    std::unique_ptr<const Descriptor> folder;
+    std::unique_ptr<const FileDescriptor> folder;
     int shares = 0;
   };
 

@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "hal/new_folder.h"
-#include "lightfield/descriptor.h"
+#include "lightfield/file_descriptor.h"
 
 namespace lumibox::lightfield {
 
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 void DurableFiles::write_and_sync(const fs::path& aside, const fs::path& path,
                                   std::span<const std::uint8_t> bytes) const {
-  const Descriptor file(aside, O_WRONLY | O_CREAT | O_TRUNC, path);
+  const FileDescriptor file(aside, O_WRONLY | O_CREAT | O_TRUNC, path);
   note(Step::Opened, aside);
   while (!bytes.empty()) {
     const ssize_t written = ::write(file.get(), bytes.data(), bytes.size());
@@ -48,7 +48,7 @@ void DurableFiles::write(const fs::path& path, std::string_view text) const {
 
 void DurableFiles::sync_folder(const fs::path& path) const {
   const fs::path folder = path.empty() ? fs::path(".") : path;
-  const Descriptor descriptor(folder, O_RDONLY | O_DIRECTORY, folder);
+  const FileDescriptor descriptor(folder, O_RDONLY | O_DIRECTORY, folder);
   // EINVAL: a file system that has nothing to sync there, e.g. some network mounts.
   if (::fsync(descriptor.get()) != 0 && errno != EINVAL) fail_at(folder, "cannot sync", errno);
   note(Step::FolderSynced, folder);

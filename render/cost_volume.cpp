@@ -27,15 +27,10 @@ struct Warp {
 
   Warp(const SmallPicture& from, const SmallPicture& to) {
     const geometry::Pose to_from_from = to.world_from_camera.inverse() * from.world_from_camera;
-    before = (matrix(to) * to_from_from.matrix3() * matrix(from).inverse()).cast<float>();
-    shift = (matrix(to) * to_from_from.translation).cast<float>();
-  }
-
-  static Eigen::Matrix3d matrix(const SmallPicture& picture) {
-    const config::CameraProfile& c = picture.camera.profile();
-    Eigen::Matrix3d m;
-    m << c.fx, 0.0, c.cx, 0.0, c.fy, c.cy, 0.0, 0.0, 1.0;
-    return m;
+    before = (to.camera.pinhole_matrix() * to_from_from.matrix3() *
+              from.camera.pinhole_matrix().inverse())
+                 .cast<float>();
+    shift = (to.camera.pinhole_matrix() * to_from_from.translation).cast<float>();
   }
 };
 

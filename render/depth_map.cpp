@@ -77,19 +77,25 @@ double DepthMap::along(const Eigen::Vector3d& ray) const {
                                              static_cast<float>(c.fy * ray.y() / ray.z() + c.cy)));
 }
 
-std::vector<std::size_t> depth_neighbours(const std::vector<Perspective>& perspectives,
-                                          std::size_t index, const Eigen::Vector3d& focus) {
+std::vector<std::pair<double, std::size_t>> nearest_by_angle(
+    const std::vector<Perspective>& perspectives, const Eigen::Vector3d& center,
+    const Eigen::Vector3d& focus) {
   std::vector<std::pair<double, std::size_t>> ranked;
   for (std::size_t i = 0; i < perspectives.size(); ++i) {
-    if (i == index || !perspectives[i].color) continue;
-    const double angle =
-        lightfield::angle_at_subject(perspectives[index].center(), focus, perspectives[i].center());
-    if (angle >= kMinAngle) ranked.emplace_back(angle, i);
+    if (!perspectives[i].color || !perspectives[i].camera) continue;
+    ranked.emplace_back(lightfield::angle_at_subject(center, focus, perspectives[i].center()), i);
   }
   std::sort(ranked.begin(), ranked.end());
-  ranked.resize(std::min(ranked.size(), kNeighbours));
+  return ranked;
+}
+
+std::vector<std::size_t> depth_neighbours(const std::vector<Perspective>& perspectives,
+                                          std::size_t index, const Eigen::Vector3d& focus) {
   std::vector<std::size_t> neighbours;
-  for (const auto& [angle, i] : ranked) neighbours.push_back(i);
+  for (const auto& [angle, i] :
+       nearest_by_angle(perspectives, perspectives[index].center(), focus)) {
+    if (angle >= kMinAngle && neighbours.size() < kNeighbours) neighbours.push_back(i);
+  }
   return neighbours;
 }
 

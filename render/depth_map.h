@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "geometry/camera.h"
@@ -19,6 +20,12 @@ struct DepthMap {
   /// Inverse depth that is seen along a ray in the camera's frame, in front of it.
   double along(const Eigen::Vector3d& ray) const;
 };
+
+/// Angle at S to `center`, radians, and index of all perspectives that have a picture and a camera;
+/// the nearest first.
+std::vector<std::pair<double, std::size_t>> nearest_by_angle(
+    const std::vector<lightfield::Perspective>& perspectives, const Eigen::Vector3d& center,
+    const Eigen::Vector3d& focus);
 
 /// Indices of the perspectives whose pictures tell the depth in that of `index`: the nearest by
 /// angle at S that lie far enough away for parallax; at most four.

@@ -11,7 +11,7 @@ constexpr std::size_t kLeastSlots = 32;  // a view needs eight; the next view ne
 }  // namespace
 
 void MapCache::begin_view(const std::vector<const DepthMap*>& maps) {
-  ++view_;
+  slots_.begin_view();
   int width = width_;
   int height = height_;
   for (const DepthMap* map : maps) {
@@ -23,32 +23,31 @@ void MapCache::begin_view(const std::vector<const DepthMap*>& maps) {
   if (width == width_ && height == height_ && slots <= slots_.size()) return;
   width_ = width;
   height_ = height;
-  slots_.assign(slots, {});
+  slots_.reset(slots);
+  largest_.assign(slots, 0.0);
   texture_ = gl::make_texture(GL_TEXTURE_2D_ARRAY);
   glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_R8, std::max(width_, 1), std::max(height_, 1),
                  static_cast<GLsizei>(slots));
 }
 
 MapCache::Slot MapCache::slot_of(const std::shared_ptr<const DepthMap>& map) {
-  auto slot = std::ranges::find_if(slots_, [&](const Held& h) { return h.map.lock() == map; });
-  if (slot == slots_.end()) {
-    slot = std::ranges::min_element(slots_, {}, &Held::last_view);
-    const auto largest = *std::ranges::max_element(map->inverse_depth);
-    slot->map = map;
-    slot->largest = static_cast<double>(largest);
-    shares_.clear();
-    for (const float rho : map->inverse_depth) {
-      const float share = largest > 0.0F ? std::max(rho, 0.0F) / largest : 0.0F;
-      shares_.push_back(static_cast<std::uint8_t>(std::lround(255.0F * share)));
-    }
-    glBindTexture(GL_TEXTURE_2D_ARRAY, texture_.name());
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, static_cast<GLint>(slot - slots_.begin()),
-                    map->camera.width(), map->camera.height(), 1, GL_RED, GL_UNSIGNED_BYTE,
-                    shares_.data());
+  const auto [slot, is_new] = slots_.place_of(map);
+  if (is_new) upload(*map, slot);
+  return {static_cast<int>(slot), largest_[slot]};
+}
+
+void MapCache::upload(const DepthMap& map, std::size_t slot) {
+  const float largest = *std::ranges::max_element(map.inverse_depth);
+  largest_[slot] = static_cast<double>(largest);
+  shares_.clear();
+  for (const float rho : map.inverse_depth) {
+    const float share = largest > 0.0F ? std::max(rho, 0.0F) / largest : 0.0F;
+    shares_.push_back(static_cast<std::uint8_t>(std::lround(255.0F * share)));
   }
-  slot->last_view = view_;
-  return {static_cast<int>(slot - slots_.begin()), slot->largest};
+  glBindTexture(GL_TEXTURE_2D_ARRAY, texture_.name());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+  glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, static_cast<GLint>(slot), map.camera.width(),
+                  map.camera.height(), 1, GL_RED, GL_UNSIGNED_BYTE, shares_.data());
 }
 
 }  // namespace lumibox::render

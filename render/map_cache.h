@@ -5,6 +5,7 @@
 
 #include "render/depth_map.h"
 #include "render/gl.h"
+#include "render/texture_slots.h"
 
 namespace lumibox::render {
 
@@ -28,17 +29,13 @@ class MapCache {
   int height() const { return height_; }  ///< samples of a slot
 
  private:
-  struct Held {
-    std::weak_ptr<const DepthMap> map;
-    double largest = 0.0;
-    std::uint64_t last_view = 0;
-  };
+  void upload(const DepthMap& map, std::size_t slot);
 
   gl::Texture texture_;
   int width_ = 0;
   int height_ = 0;
-  std::vector<Held> slots_;
-  std::uint64_t view_ = 0;
+  TextureSlots<DepthMap> slots_;
+  std::vector<double> largest_;       ///< by slot
   std::vector<std::uint8_t> shares_;  ///< of the map being uploaded
 };
 

@@ -32,7 +32,7 @@ void add_alpha(const hal::Image& rgb, std::vector<std::uint8_t>& rgba) {
 }  // namespace
 
 void PictureCache::begin_view(std::size_t pictures, int width, int height) {
-  ++view_;
+  slots_.begin_view();
   if (pictures <= slots_.size() && width <= width_ && height <= height_) return;
   width = std::max(width, width_);
   height = std::max(height, height_);
@@ -49,7 +49,7 @@ void PictureCache::allocate(std::size_t slots, int width, int height) {
   }
   glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RGBA8, width, height, static_cast<GLsizei>(slots));
   const bool failed = glGetError() != GL_NO_ERROR;
-  slots_.assign(failed ? 0 : slots, {});
+  slots_.reset(failed ? 0 : slots);
   width_ = failed ? 0 : width;
   height_ = failed ? 0 : height;
   if (failed) {
@@ -60,17 +60,9 @@ void PictureCache::allocate(std::size_t slots, int width, int height) {
 }
 
 int PictureCache::slot_of(const std::shared_ptr<const hal::Image>& picture) {
-  std::size_t oldest = 0;
-  for (std::size_t i = 0; i < slots_.size(); ++i) {
-    if (slots_[i].picture.lock() == picture) {
-      slots_[i].last_view = view_;
-      return static_cast<int>(i);
-    }
-    if (slots_[i].last_view < slots_[oldest].last_view) oldest = i;
-  }
-  upload(*picture, oldest);
-  slots_[oldest] = {picture, view_};
-  return static_cast<int>(oldest);
+  const auto [slot, is_new] = slots_.place_of(picture);
+  if (is_new) upload(*picture, slot);
+  return static_cast<int>(slot);
 }
 
 void PictureCache::upload(const hal::Image& picture, std::size_t slot) {

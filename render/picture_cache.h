@@ -6,6 +6,7 @@
 
 #include "hal/image.h"
 #include "render/gl.h"
+#include "render/texture_slots.h"
 
 namespace lumibox::render {
 
@@ -28,19 +29,13 @@ class PictureCache {
   int height() const { return height_; }  ///< pixels of a slot
 
  private:
-  struct Slot {
-    std::weak_ptr<const hal::Image> picture;
-    std::uint64_t last_view = 0;
-  };
-
   void allocate(std::size_t slots, int width, int height);
   void upload(const hal::Image& picture, std::size_t slot);
 
   gl::Texture texture_;
   int width_ = 0;
   int height_ = 0;
-  std::vector<Slot> slots_;
-  std::uint64_t view_ = 0;
+  TextureSlots<hal::Image> slots_;
   std::vector<std::uint8_t> rgba_;  ///< of the picture being uploaded
 };
 

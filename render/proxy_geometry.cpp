@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "geometry/robust.h"
-#include "lightfield/light_field.h"
 #include "render/blending.h"
 #include "render/depth_grid.h"
 
@@ -57,14 +56,7 @@ Eigen::Vector3d ProxyGeometry::focal_point(const View& view,
 std::shared_ptr<const Shape> ProxyGeometry::shape_of(const View& view,
                                                      const std::vector<Perspective>& perspectives,
                                                      const Eigen::Vector3d& focus) {
-  std::vector<std::pair<double, std::size_t>> ranked;
-  for (std::size_t i = 0; i < perspectives.size(); ++i) {
-    if (!perspectives[i].color || !perspectives[i].camera) continue;
-    ranked.emplace_back(lightfield::angle_at_subject(view.world_from_camera.translation, focus,
-                                                     perspectives[i].center()),
-                        i);
-  }
-  std::sort(ranked.begin(), ranked.end());
+  const auto ranked = nearest_by_angle(perspectives, view.world_from_camera.translation, focus);
   const std::size_t count = std::min(kMapsOfView, ranked.size());
   std::vector<double> penalties;
   for (std::size_t i = 0; i < count; ++i) penalties.push_back(ranked[i].first);

@@ -41,12 +41,6 @@ Eigen::Matrix3d pixel_from_fragment(int height) {
   return m;
 }
 
-Eigen::Matrix3d pixel_from_ray(const config::CameraProfile& c) {
-  Eigen::Matrix3d m;
-  m << c.fx, 0.0, c.cx, 0.0, c.fy, c.cy, 0.0, 0.0, 1.0;
-  return m;
-}
-
 /// What the fragment shader is compiled for.
 struct Kind {
   bool small_aperture = false;
@@ -76,7 +70,7 @@ LayerUniforms uniforms_of(const Layer& layer, const Perspective& perspective, co
   Eigen::Matrix<double, 4, 3> m;
   m.topRows<3>() = layer.source_from_pixel;
   if (!kind.distortion && !kind.shape) {
-    m.topRows<3>() = pixel_from_ray(c) * layer.source_from_pixel;
+    m.topRows<3>() = perspective.camera->pinhole_matrix() * layer.source_from_pixel;
   }
   m.row(3) = layer.before_view.transpose();
   m = m * pixel_from_fragment(view.camera.height());

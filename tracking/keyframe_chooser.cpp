@@ -15,6 +15,10 @@ constexpr double kMinRefreshBaseline = 0.012;  // of the depth: without a baseli
 
 }  // namespace
 
+double wanted_baseline(const config::Tracking& options) {
+  return std::tan(options.keyframe_parallax_deg * std::numbers::pi / 180.0);
+}
+
 KeyframeChooser::KeyframeChooser(const geometry::Camera& camera, const config::Tracking& options)
     : camera_(camera), options_(options) {
   reserve_evidence();
@@ -45,8 +49,7 @@ bool KeyframeChooser::is_wanted(const MapView& map, const Anchor& anchor,
   const MapView::Keyframe& nearest = map.keyframes[static_cast<std::size_t>(anchor.keyframe)];
   const double baseline =
       nearest.scale * anchor.keyframe_from_camera.translation.norm() / found.median_depth;
-  const bool parallax =
-      baseline > std::tan(options_.keyframe_parallax_deg * std::numbers::pi / 180.0);
+  const bool parallax = baseline > wanted_baseline(options_);
   const bool refresh =
       found.inliers < kRefreshShare * std::min(nearest.points, options_.max_measurements) &&
       baseline > kMinRefreshBaseline;

@@ -13,6 +13,9 @@
 
 namespace lumibox::tracking {
 
+/// Distance from the nearest keyframe at which a new one is wanted, as a share of the depth.
+double wanted_baseline(const config::Tracking& options);
+
 /// A frame's place in the map: a keyframe and the pose relative to it.
 struct Anchor {
   KeyframeId keyframe = -1;

@@ -1,12 +1,11 @@
 #include "tracking/keyframe_culling.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <optional>
 #include <vector>
 
 #include "tracking/covisibility.h"
+#include "tracking/keyframe_chooser.h"
 
 namespace lumibox::tracking {
 namespace {
@@ -39,8 +38,7 @@ bool is_redundant(const Map& map, KeyframeId id) {
 /// drifted (docs/tracking.md).
 std::optional<KeyframeId> stand_in(const config::Tracking& options, const Map& map, KeyframeId id) {
   const Map::Keyframe& here = map.keyframe(id);
-  double nearest = kNextTo * here.median_depth *
-                   std::tan(options.keyframe_parallax_deg * std::numbers::pi / 180.0);
+  double nearest = kNextTo * here.median_depth * wanted_baseline(options);
   std::optional<KeyframeId> chosen;
   for (const KeyframeId k : covisible_keyframes(map, id, kLookedAt)) {
     if (k > id) continue;

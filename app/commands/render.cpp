@@ -17,8 +17,8 @@
 namespace lumibox::app {
 namespace {
 
-render::Settings settings_of(const RenderOptions& options, const lightfield::Sphere& subject) {
-  config::Render render = load_config(options.sources).render;
+render::Settings settings_of(const RenderOptions& options, config::Render render,
+                             const lightfield::Sphere& subject) {
   render.k = options.k.value_or(render.k);
   render.exponent = options.exponent.value_or(render.exponent);
   const auto aperture = options.mode == "wide" ? render::Aperture::Wide : render::Aperture::Small;
@@ -26,26 +26,27 @@ render::Settings settings_of(const RenderOptions& options, const lightfield::Sph
 }
 
 /// A wide aperture is focused on a plane; the small one shows what the configuration says.
-render::Geometry geometry_of(const RenderOptions& options) {
+render::Geometry geometry_of(const RenderOptions& options, const config::Render& render) {
   const bool wide = options.mode == "wide";
   if (wide && options.geometry == "mesh") {
     throw config::InputError(
         "--geometry mesh: is sharp everywhere; --mode wide focuses on a plane: plane or focal");
   }
-  const std::string usual = wide ? "plane" : load_config(options.sources).render.geometry;
+  const std::string usual = wide ? "plane" : render.geometry;
   return render::geometry_named(options.geometry.value_or(usual));
 }
 
 }  // namespace
 
 void render_views(const RenderOptions& options) {
+  const config::Render config = load_config(options.sources).render;
   refuse_recorded(options.out, options.capture);
   const lightfield::Capture capture = lightfield::load_capture(options.capture);
   const auto& perspectives = capture.light_field.perspectives();
   if (perspectives.empty()) {
     throw config::InputError(options.capture, "holds no perspectives to render from");
   }
-  const render::Settings settings = settings_of(options, subject_of(capture));
+  const render::Settings settings = settings_of(options, config, subject_of(capture));
   const auto views = hal::read_tum_trajectory(options.views);
   if (views.empty()) {
     throw config::InputError(options.views,
@@ -54,7 +55,7 @@ void render_views(const RenderOptions& options) {
   const geometry::Camera camera =
       options.calibration ? geometry::Camera(hal::read_calibration(*options.calibration))
                           : *perspectives.front().camera;
-  const render::Geometry geometry = geometry_of(options);
+  const render::Geometry geometry = geometry_of(options, config);
   render::ProxyGeometry proxy(capture.points, render::Estimating::AtOnce);
   Painter painter(options.reference ? Exactness::Exact : Exactness::Fast);
   make_folder(options.out);

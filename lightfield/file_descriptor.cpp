@@ -1,4 +1,4 @@
-#include "lightfield/descriptor.h"
+#include "lightfield/file_descriptor.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -14,13 +14,13 @@ void fail_at(const std::filesystem::path& path, const std::string& what, int err
   throw config::InputError(path, what + ": " + std::generic_category().message(error));
 }
 
-Descriptor::Descriptor(const std::filesystem::path& path, int flags,
-                       const std::filesystem::path& name)
+FileDescriptor::FileDescriptor(const std::filesystem::path& path, int flags,
+                               const std::filesystem::path& name)
     : value_(::open(path.c_str(), flags | O_CLOEXEC, 0644)) {
   if (value_ < 0) fail_at(name, "cannot open", errno);
 }
 
-Descriptor::~Descriptor() {
+FileDescriptor::~FileDescriptor() {
   ::close(value_);
 }
 

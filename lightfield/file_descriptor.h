@@ -9,13 +9,13 @@ namespace lumibox::lightfield {
 [[noreturn]] void fail_at(const std::filesystem::path& path, const std::string& what, int error);
 
 /// An open file descriptor that closes itself.
-class Descriptor {
+class FileDescriptor {
  public:
   /// As open(2). Throws config::InputError if that fails, which calls the file `name`.
-  Descriptor(const std::filesystem::path& path, int flags, const std::filesystem::path& name);
-  ~Descriptor();
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
+  FileDescriptor(const std::filesystem::path& path, int flags, const std::filesystem::path& name);
+  ~FileDescriptor();
+  FileDescriptor(const FileDescriptor&) = delete;
+  FileDescriptor& operator=(const FileDescriptor&) = delete;
 
   int get() const { return value_; }
 
