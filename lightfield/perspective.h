@@ -27,6 +27,8 @@ struct Perspective {
   std::int64_t timestamp_ns = 0;
   std::shared_ptr<const hal::Image> color;  ///< three channels, as the camera gave it (distorted)
   std::shared_ptr<const geometry::Camera> camera;  ///< its intrinsics
+  /// What its light is multiplied by so that it is as bright as its neighbours (render/exposure.h).
+  double gain = 1.0;
   /// The map keyframe that the pose hangs on, so that a later correction of the map moves it;
   /// -1 for imported perspectives.
   int keyframe = -1;

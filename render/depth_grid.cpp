@@ -133,6 +133,10 @@ DepthGrid::DepthGrid(const View& view, const std::vector<Source>& sources, doubl
   inverse_depths_ = filled(std::move(finest), static_cast<float>(fallback));
 }
 
+double DepthGrid::largest() const {
+  return static_cast<double>(*std::ranges::max_element(inverse_depths_));
+}
+
 double DepthGrid::at(double u, double v) const {
   return static_cast<double>(sample_bilinear(inverse_depths_, columns_, rows_,
                                              static_cast<float>(u / cell_),

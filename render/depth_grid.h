@@ -29,6 +29,8 @@ class DepthGrid {
   double cell() const { return cell_; }  ///< pixels of the view
   const std::vector<float>& inverse_depths() const { return inverse_depths_; }  ///< row by row
 
+  double largest() const;  ///< inverse depth
+
   /// At a pixel within the view.
   double at(double u, double v) const;
 

@@ -6,6 +6,7 @@
 
 #include "render/blending.h"
 #include "render/depth_grid.h"
+#include "render/light.h"
 #include "render/sampling.h"
 
 namespace lumibox::render {
@@ -30,13 +31,17 @@ std::optional<Eigen::Vector3d> intersect(const Ray& ray, const Eigen::Vector3d& 
   return ray.origin + t * ray.direction;
 }
 
-/// What one perspective shows at a pixel of the view: its colour there, and its weight (wide) or
+/// What one perspective shows at a pixel of the view: its light there, and its weight (wide) or
 /// alpha (small) after feathering, 0 where it shows nothing.
 struct Contribution {
-  Eigen::Vector3d color = Eigen::Vector3d::Zero();
+  Eigen::Vector3d light = Eigen::Vector3d::Zero();
   double weight = 0.0;
   double closeness = 1.0;  ///< on a shape, see render::closeness
 };
+
+Eigen::Vector3d light_at(const lightfield::Perspective& perspective, const Eigen::Vector2d& pixel) {
+  return perspective.gain * light_of(sample_bilinear(*perspective.color, pixel));
+}
 
 Contribution contribution(const Ray& ray, const Layer& layer,
                           const lightfield::Perspective& perspective, const Settings& settings) {
@@ -48,7 +53,7 @@ Contribution contribution(const Ray& ray, const Layer& layer,
   const hal::Image& image = *perspective.color;
   const double fade = feather(*pixel, image.width(), image.height(), settings.feather_px);
   if (fade <= 0.0) return {};
-  return {sample_bilinear(image, *pixel), layer.weight * fade};
+  return {light_at(perspective, *pixel), layer.weight * fade};
 }
 
 /// The same where the pixel's ray meets a shape at an inverse depth.
@@ -66,7 +71,7 @@ Contribution contribution_on_shape(const Eigen::Vector3d& pixel_of_view, double 
   if (layer.map && inverse_depth > 0.0) {
     close *= visibility(layer.map->along(ray_of_source), inverse_depth / ray_of_source.z());
   }
-  return {sample_bilinear(image, *pixel), layer.weight * fade, close};
+  return {light_at(perspective, *pixel), layer.weight * fade, close};
 }
 
 /// Thesis 3.2, wide aperture: weighted mean; on a shape the closer ones count more.
@@ -75,7 +80,7 @@ Eigen::Vector3d blend_wide(const std::vector<Contribution>& contributions, bool 
   double close_total = 0.0;
   double total = 0.0;
   for (const Contribution& c : contributions) {
-    sum += c.closeness * c.weight * c.color;
+    sum += c.closeness * c.weight * c.light;
     close_total += c.closeness * c.weight;
     total += c.weight;
   }
@@ -87,11 +92,11 @@ Eigen::Vector3d blend_wide(const std::vector<Contribution>& contributions, bool 
 
 /// Thesis 3.2, small aperture: far to near, each "over" what is there.
 Eigen::Vector3d blend_small(const std::vector<Contribution>& contributions) {
-  Eigen::Vector3d color = Eigen::Vector3d::Zero();
+  Eigen::Vector3d light = Eigen::Vector3d::Zero();
   for (auto c = contributions.rbegin(); c != contributions.rend(); ++c) {
-    color = c->weight * c->color + (1.0 - c->weight) * color;
+    light = c->weight * c->light + (1.0 - c->weight) * light;
   }
-  return color;
+  return light;
 }
 
 }  // namespace
@@ -112,11 +117,11 @@ hal::Image render_reference(const View& view,
                                                                   layers[i], perspective, settings)
                                           : contribution(ray, layers[i], perspective, settings);
       }
-      const Eigen::Vector3d color = settings.shape || settings.aperture == Aperture::Wide
+      const Eigen::Vector3d light = settings.shape || settings.aperture == Aperture::Wide
                                         ? blend_wide(contributions, settings.shape != nullptr)
                                         : blend_small(contributions);
       for (int channel = 0; channel < 3; ++channel) {
-        image.at(u, v)[channel] = static_cast<std::uint8_t>(std::lround(color[channel]));
+        image.at(u, v)[channel] = static_cast<std::uint8_t>(std::lround(stored_of(light[channel])));
       }
     }
   }

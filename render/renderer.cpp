@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <optional>
 #include <string>
 
 #include "render/blending.h"
 #include "render/depth_grid.h"
 #include "render/gl.h"
+#include "render/layer_uniforms.h"
 #include "render/map_cache.h"
 #include "render/picture_cache.h"
 #include "render/shader_source.h"
@@ -18,93 +18,11 @@ namespace {
 
 using lightfield::Perspective;
 
-/// `Layer` of light_field.frag, std140.
-struct LayerUniforms {
-  std::array<float, 4> from_x, from_y, from_1;
-  std::array<float, 4> picture;
-  std::array<float, 4> blend;
-  std::array<float, 4> intrinsics;
-  std::array<float, 4> distortion;
-  std::array<float, 4> shift;
-};
-static_assert(sizeof(LayerUniforms) * kMaxLayers <= 16384, "the least that ES 3 promises");
-
-std::array<float, 4> vec4(double x, double y, double z, double w) {
-  return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z),
-          static_cast<float>(w)};
-}
-
-/// Pixel of the view (first centre at 0, rows down) from gl_FragCoord (at 0.5, rows up).
-Eigen::Matrix3d pixel_from_fragment(int height) {
-  Eigen::Matrix3d m;
-  m << 1.0, 0.0, -0.5, 0.0, -1.0, height - 0.5, 0.0, 0.0, 1.0;
-  return m;
-}
-
-/// What the fragment shader is compiled for.
-struct Kind {
-  bool small_aperture = false;
-  bool distortion = false;
-  bool shape = false;
-
-  std::size_t index() const {
-    return (small_aperture ? 4U : 0U) + (distortion ? 2U : 0U) + (shape ? 1U : 0U);
-  }
-};
-
-/// Length in which the shader has inverse depths, so that half precision serves.
-double unit_of(const View& view, const Settings& settings) {
-  const double distance = (settings.focus - view.world_from_camera.translation).norm();
-  return distance > 0.0 ? distance : 1.0;
-}
-
-/// Where a layer's pictures are on the GPU.
-struct Slots {
-  int picture = 0;
-  std::optional<MapCache::Slot> map;
-};
-
-LayerUniforms uniforms_of(const Layer& layer, const Perspective& perspective, const View& view,
-                          const Kind& kind, const Slots& slots, const Settings& settings) {
-  const config::CameraProfile& c = perspective.camera->profile();
-  Eigen::Matrix<double, 4, 3> m;
-  m.topRows<3>() = layer.source_from_pixel;
-  if (!kind.distortion && !kind.shape) {
-    m.topRows<3>() = perspective.camera->pinhole_matrix() * layer.source_from_pixel;
-  }
-  m.row(3) = layer.before_view.transpose();
-  m = m * pixel_from_fragment(view.camera.height());
-
-  const int width = perspective.color->width();
-  const int height = perspective.color->height();
-  const double fold = std::min(perspective.camera->fold_radius2(),
-                               static_cast<double>(std::numeric_limits<float>::max()));
-  LayerUniforms u;
-  u.from_x = vec4(m(0, 0), m(1, 0), m(2, 0), m(3, 0));
-  u.from_y = vec4(m(0, 1), m(1, 1), m(2, 1), m(3, 1));
-  u.from_1 = vec4(m(0, 2), m(1, 2), m(2, 2), m(3, 2));
-  u.picture = vec4(width - 1, height - 1, slots.picture,
-                   1.0 / feather_width(width, height, settings.feather_px));
-  const bool fisheye = c.model == config::LensModel::Fisheye;
-  u.blend = vec4(layer.weight, c.k3, fold, fisheye ? 1.0 : 0.0);
-  u.intrinsics = vec4(c.fx, c.fy, c.cx, c.cy);
-  const Eigen::Vector3d shift = layer.shift / unit_of(view, settings);
-  u.shift = vec4(shift.x(), shift.y(), shift.z(), 0.0);
-  if (kind.shape) {
-    const double size = slots.map ? layer.map->camera.profile().fx / c.fx : 0.0;
-    const double largest = slots.map ? slots.map->largest * unit_of(view, settings) : 0.0;
-    u.from_x[3] = slots.map ? static_cast<float>(slots.map->index) : 0.0F;
-    u.from_y[3] = static_cast<float>(size);
-    u.from_1[3] = static_cast<float>(largest);
-  }
-  u.distortion = fisheye ? vec4(c.k1, c.k2, c.k3, c.k4) : vec4(c.k1, c.k2, c.p1, c.p2);
-  return u;
-}
-
 /// light_field.frag in one of its variants.
 struct Variant {
   gl::Program program;
   GLint layer_count = -1;
+  GLint middle = -1;
   GLint texel_size = -1;
   GLint least_total_weight = -1;
   GLint stop = -1;
@@ -115,6 +33,8 @@ struct Variant {
     std::string prelude = "#define MAX_LAYERS " + std::to_string(kMaxLayers) + "\n";
     if (kind.small_aperture) prelude += "#define SMALL_APERTURE\n";
     if (kind.distortion) prelude += "#define DISTORTION\n";
+    if (kind.horizon) prelude += "#define HORIZON\n";
+    if (kind.one_camera) prelude += "#define ONE_CAMERA\n";
     if (kind.shape) {
       prelude += "#define SHAPE\n#define FARTHER_PENALTY " + std::to_string(kFartherPenalty) +
                  "\n#define LEAST_PENALTY " + std::to_string(kLeastPenalty) + "\n#define BEFORE " +
@@ -122,8 +42,10 @@ struct Variant {
                  "\n#define HIDDEN " + std::to_string(kHidden) + "\n";
     }
     prelude += shader_source("lens.glsl");
+    prelude += shader_source("light.glsl");
     program = gl::make_program("screen.vert", "light_field.frag", prelude);
     layer_count = gl::uniform(program, "layer_count");
+    middle = gl::uniform(program, "middle");
     texel_size = gl::uniform(program, "texel_size");
     least_total_weight = gl::uniform(program, "least_total_weight");
     stop = gl::uniform(program, "stop");
@@ -153,18 +75,14 @@ class Renderer::Impl {
     std::vector<Layer> layers = plan_view(view, perspectives, settings);
     const std::size_t planned = layers.size();
     std::erase_if(layers, [](const Layer& layer) { return layer.weight <= 0.0; });
-    Kind kind;
-    kind.shape = settings.shape != nullptr;
-    kind.small_aperture = settings.aperture == Aperture::Small && !kind.shape;
-    kind.distortion = std::any_of(layers.begin(), layers.end(), [&](const Layer& layer) {
-      return perspectives[layer.perspective].camera->has_distortion();
-    });
-    fill_uniforms(layers, perspectives, view, kind, settings);
+    const Kind kind = fill_uniforms(layers, perspectives, view, settings);
 
     gl::begin(framebuffer, view.camera.width(), view.camera.height(), gl::Blend::Replace);
     const Variant& variant = variant_for(kind);
     glUseProgram(variant.program.name());
     glUniform1i(variant.layer_count, static_cast<GLint>(layers.size()));
+    const Eigen::Vector2f middle = middle_of(view).cast<float>();
+    glUniform2f(variant.middle, middle.x(), middle.y());
     glUniform2f(variant.texel_size, 1.0F / static_cast<float>(std::max(1, cache_.width())),
                 1.0F / static_cast<float>(std::max(1, cache_.height())));
     glUniform1f(variant.least_total_weight,
@@ -185,30 +103,40 @@ class Renderer::Impl {
   }
 
  private:
-  void fill_uniforms(const std::vector<Layer>& layers, const std::vector<Perspective>& perspectives,
-                     const View& view, const Kind& kind, const Settings& settings) {
-    if (layers.empty()) return;
-    int width = 0;
-    int height = 0;
-    for (const Layer& layer : layers) {
-      width = std::max(width, perspectives[layer.perspective].color->width());
-      height = std::max(height, perspectives[layer.perspective].color->height());
-    }
-    cache_.begin_view(layers.size(), width, height);
-    std::vector<const DepthMap*> maps;
-    for (const Layer& layer : layers) maps.push_back(layer.map.get());
-    if (kind.shape) maps_.begin_view(maps);
-
-    std::vector<LayerUniforms> data;
-    for (const Layer& layer : layers) {
-      const Perspective& perspective = perspectives[layer.perspective];
-      Slots slots{cache_.slot_of(perspective.color), std::nullopt};
-      if (layer.map) slots.map = maps_.slot_of(layer.map);
-      data.push_back(uniforms_of(layer, perspective, view, kind, slots, settings));
-    }
+  /// Brings the layers' data to the GPU, with the pictures and depth maps that are not there.
+  Kind fill_uniforms(const std::vector<Layer>& layers, const std::vector<Perspective>& perspectives,
+                     const View& view, const Settings& settings) {
+    const LayerData data =
+        layer_data(view, perspectives, settings, layers, slots_of(layers, perspectives));
     glBindBuffer(GL_UNIFORM_BUFFER, uniforms_.name());
     glBufferSubData(GL_UNIFORM_BUFFER, 0,
-                    static_cast<GLsizeiptr>(data.size() * sizeof(LayerUniforms)), data.data());
+                    static_cast<GLsizeiptr>(data.layers.size() * sizeof(LayerUniforms)),
+                    data.layers.data());
+    return data.kind;
+  }
+
+  std::vector<LayerSlots> slots_of(const std::vector<Layer>& layers,
+                                   const std::vector<Perspective>& perspectives) {
+    std::vector<LayerSlots> slots;
+    if (layers.empty()) return slots;
+    int width = 0;
+    int height = 0;
+    std::vector<const DepthMap*> maps;
+    for (const Layer& layer : layers) {
+      width = std::max(width, perspectives[layer.perspective].camera->width());
+      height = std::max(height, perspectives[layer.perspective].camera->height());
+      maps.push_back(layer.map.get());
+    }
+    cache_.begin_view(layers.size(), width, height);
+    maps_.begin_view(maps);
+    for (const Layer& layer : layers) {
+      slots.push_back({cache_.slot_of(perspectives[layer.perspective].color)});
+      if (!layer.map) continue;
+      const MapCache::Slot map = maps_.slot_of(layer.map);
+      slots.back().map = map.index;
+      if (map.largest > 0.0) slots.back().largest_map = map.largest;
+    }
+    return slots;
   }
 
   void bind_shape(const View& view, const Settings& settings, const Variant& variant) {
@@ -246,7 +174,7 @@ class Renderer::Impl {
   PictureCache cache_;
   MapCache maps_;
   gl::Texture shape_;  ///< inverse depths of the view drawn last
-  std::array<std::optional<Variant>, 8> variants_;
+  std::array<std::optional<Variant>, Kind::kCount> variants_;
 };
 
 Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}

@@ -76,7 +76,7 @@ inline constexpr double kLeastPenalty = 0.004;
 inline constexpr double kBefore = 1.05;
 inline constexpr double kHiding = 1.25;
 /// Weight of a perspective from which a point is hidden, for where it is hidden from all.
-inline constexpr double kHidden = 0.01;
+inline constexpr double kHidden = 0.0005;
 
 /// What a pixel of a shape makes of a perspective that sees it: the view's ray to it and the
 /// perspective's, both in its camera, any lengths in the ratio of the distances. Unstructured
