@@ -104,6 +104,9 @@ void Loop::show(Picture picture) {
   if (const auto error = recorder_.error()) {
     picture_.alerts.push_back("not stored: " + *error);
   }
+  if (const auto lost = recorder_.light_field().lost_pictures()) {
+    picture_.alerts.push_back(*lost);
+  }
   if (const auto error = tracker_.mapping_error()) {
     picture_.alerts.push_back("the map no longer grows: " + *error);
   }

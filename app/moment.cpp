@@ -1,5 +1,6 @@
 #include "app/moment.h"
 
+#include <memory>
 #include <utility>
 
 namespace lumibox::app {
@@ -9,7 +10,7 @@ lightfield::Perspective perspective_of(const Moment& moment,
   lightfield::Perspective perspective;
   perspective.world_from_camera = *moment.tracked.world_from_camera;
   perspective.timestamp_ns = moment.frame.timestamp_ns;
-  perspective.color = moment.frame.color;
+  perspective.photo = std::make_shared<lightfield::Photo>(moment.frame.color);
   perspective.camera = std::move(camera);
   perspective.keyframe = moment.tracked.keyframe;
   perspective.keyframe_from_camera = moment.tracked.keyframe_from_camera;

@@ -3,7 +3,6 @@
 #include "config/error.h"
 #include "lightfield/capture_lock.h"
 #include "lightfield/picture_copy.h"
-#include "lightfield/picture_path.h"
 #include "lightfield/points_file.h"
 #include "lightfield/transforms.h"
 
@@ -22,7 +21,7 @@ Capture load_capture(const fs::path& folder) {
   capture.threshold = transforms.threshold;
   if (transforms.points_file) capture.points = read_ply(folder / *transforms.points_file);
   for (Perspective& perspective : transforms.perspectives) {
-    perspective.color = read_picture(folder / perspective.file, *perspective.camera);
+    perspective.photo = std::make_shared<Photo>(folder / perspective.file, *perspective.camera);
   }
   capture.light_field = LightField(std::move(transforms.perspectives), transforms.subject);
   return capture;

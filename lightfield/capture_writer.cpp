@@ -38,7 +38,7 @@ CaptureWriter::CaptureWriter(const Capture& capture, std::size_t keyframes, int 
       changed_(true) {
   for (const Perspective& perspective : capture.light_field.perspectives()) {
     named_[perspective.id] = perspective;
-    named_[perspective.id].color.reset();
+    named_[perspective.id].photo.reset();
     named_on_disk_.insert(perspective.file);
   }
   pictures_ = named_on_disk_;
@@ -46,7 +46,7 @@ CaptureWriter::CaptureWriter(const Capture& capture, std::size_t keyframes, int 
 
 void CaptureWriter::put(const Perspective& perspective, std::string file) {
   Perspective named = perspective;
-  named.color.reset();
+  named.photo.reset();
   named.file = std::move(file);
   named_[perspective.id] = std::move(named);
   changed_ = true;
@@ -56,7 +56,8 @@ void CaptureWriter::add(const Perspective& perspective) {
   require_finite(perspective.id, perspective.world_from_camera);
   require_finite(perspective.id, perspective.keyframe_from_camera);
   const std::string file = picture_file(perspective.id);
-  files_.write(folder_ / file, hal::encode_jpeg(*perspective.color, jpeg_quality_));
+  files_.write(folder_ / file, hal::encode_jpeg(*perspective.photo->require_rgb(), jpeg_quality_));
+  perspective.photo->stored_in(folder_ / file);
   pictures_.insert(file);
   put(perspective, file);
 }

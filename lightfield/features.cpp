@@ -109,7 +109,7 @@ Features place_features(const Perspective& perspective, const Eigen::Vector3d& u
 
 Features find_features(const Perspective& perspective, const Eigen::Vector3d& up_in_world,
                        std::size_t limit) {
-  const Reduced reduced = reduce(*perspective.color);
+  const Reduced reduced = reduce(*perspective.photo->require_rgb());
   if (std::min(reduced.gray.cols, reduced.gray.rows) < kSmallestSide) return {};
   const int longer = std::max(reduced.gray.cols, reduced.gray.rows);
   const auto sift = cv::SIFT::create(0, 3, kContrast, kEdge, 1.6, CV_8U);

@@ -1,7 +1,6 @@
 #include "config/error.h"
 #include "lightfield/capture.h"
 #include "lightfield/colmap.h"
-#include "lightfield/picture_path.h"
 #include "lightfield/points_file.h"
 #include "lightfield/subject_guess.h"
 #include "lightfield/transforms.h"
@@ -44,7 +43,8 @@ Capture import_capture(const fs::path& path, const PointFinder& find_points) {
   Source source = read_source(path);
   if (source.perspectives.empty()) throw config::InputError(path, "holds no pictures");
   for (Perspective& perspective : source.perspectives) {
-    perspective.color = read_picture(source.folder / perspective.file, *perspective.camera);
+    perspective.photo =
+        std::make_shared<Photo>(source.folder / perspective.file, *perspective.camera);
   }
   if (source.points.empty() && find_points) source.points = find_points(source.perspectives);
   if (!source.subject) source.subject = guess_subject(source.perspectives, source.points);

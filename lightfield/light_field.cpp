@@ -82,6 +82,18 @@ std::optional<Perspective> LightField::undo_wipe() {
   return *perspectives_.insert(place, std::move(perspective));
 }
 
+std::optional<std::string> LightField::lost_pictures() const {
+  std::size_t lost = 0;
+  std::string first;
+  for (const Perspective& perspective : perspectives_) {
+    const auto fault = perspective.photo ? perspective.photo->fault() : std::nullopt;
+    if (fault && ++lost == 1) first = *fault;
+  }
+  if (lost == 0) return std::nullopt;
+  return std::to_string(lost) + " of " + std::to_string(perspectives_.size()) +
+         " pictures are lost: " + first;
+}
+
 Perspective* LightField::find(int id) {
   for (auto* among : {&perspectives_, &wiped_}) {
     const auto found = std::ranges::find(*among, id, &Perspective::id);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "lightfield/perspective.h"
@@ -51,6 +52,10 @@ class LightField {
   /// Brings back the last wiped perspective, with its id and in its old place; returns it, or none
   /// if there is none left.
   std::optional<Perspective> undo_wipe();
+
+  /// What to tell the person when pictures are lost (Photo::fault): how many, and why the first.
+  /// None if none is.
+  std::optional<std::string> lost_pictures() const;
 
   /// Moves a perspective after a correction of the map, a wiped one too; false if there is no such
   /// id.

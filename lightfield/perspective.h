@@ -7,7 +7,7 @@
 
 #include "geometry/camera.h"
 #include "geometry/pose.h"
-#include "hal/image.h"
+#include "lightfield/photo.h"
 
 namespace lumibox::lightfield {
 
@@ -25,7 +25,7 @@ struct Perspective {
   int id = 0;  ///< unique within a capture, never reused
   geometry::Pose world_from_camera;
   std::int64_t timestamp_ns = 0;
-  std::shared_ptr<const hal::Image> color;  ///< three channels, as the camera gave it (distorted)
+  std::shared_ptr<Photo> photo;                    ///< as the camera gave it (distorted)
   std::shared_ptr<const geometry::Camera> camera;  ///< its intrinsics
   /// What its light is multiplied by so that it is as bright as its neighbours (render/exposure.h).
   double gain = 1.0;
@@ -34,6 +34,9 @@ struct Perspective {
   int keyframe = -1;
   geometry::Pose keyframe_from_camera;
   std::string file;  ///< picture's path within the capture folder; empty if not stored
+
+  /// True unless there is no picture, or none any more: views leave such a perspective out.
+  bool can_be_shown() const { return camera && photo && !photo->fault(); }
 
   const Eigen::Vector3d& center() const { return world_from_camera.translation; }
 };

@@ -16,7 +16,7 @@ std::vector<Perspective> copy_pictures(const Capture& capture, const std::filesy
     perspective.file = picture_file(perspective.id, copy ? original.extension().string() : ".jpg");
     files.write(folder / perspective.file,
                 copy ? config::read_bytes(capture.folder / original)
-                     : hal::encode_jpeg(*perspective.color, jpeg_quality));
+                     : hal::encode_jpeg(*perspective.photo->require_rgb(), jpeg_quality));
   }
   return perspectives;
 }

@@ -1,7 +1,6 @@
 #include "lightfield/picture_path.h"
 
 #include "config/error.h"
-#include "hal/image_io.h"
 #include "lightfield/text_numbers.h"
 
 namespace lumibox::lightfield {
@@ -30,19 +29,6 @@ void require_pictures(const fs::path& file, const fs::path& folder,
   throw config::InputError(file, std::to_string(missing) + " of " +
                                      std::to_string(pictures.size()) + " pictures are missing in " +
                                      (folder.empty() ? "." : folder.string()) + ": " + names);
-}
-
-std::shared_ptr<const hal::Image> read_picture(const fs::path& path,
-                                               const geometry::Camera& camera) {
-  hal::Image image = hal::read_image(path);
-  if (image.width() != camera.width() || image.height() != camera.height()) {
-    throw config::InputError(path, "is " + std::to_string(image.width()) + "x" +
-                                       std::to_string(image.height()) + ", its camera says " +
-                                       std::to_string(camera.width()) + "x" +
-                                       std::to_string(camera.height()));
-  }
-  if (image.channels() != 3) image = hal::to_rgb(image);
-  return std::make_shared<const hal::Image>(std::move(image));
 }
 
 }  // namespace lumibox::lightfield

@@ -1,12 +1,8 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
-
-#include "geometry/camera.h"
-#include "hal/image.h"
 
 namespace lumibox::lightfield {
 
@@ -18,10 +14,5 @@ bool stays_inside(const std::string& path);
 /// exist in `folder`.
 void require_pictures(const std::filesystem::path& file, const std::filesystem::path& folder,
                       const std::vector<std::string>& pictures);
-
-/// Reads a picture as three channels. Throws config::InputError if it is damaged or its size is not
-/// the camera's.
-std::shared_ptr<const hal::Image> read_picture(const std::filesystem::path& path,
-                                               const geometry::Camera& camera);
 
 }  // namespace lumibox::lightfield

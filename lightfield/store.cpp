@@ -161,7 +161,7 @@ void Store::set_subject(const Sphere& sphere) {
 }
 
 void Store::add(const Perspective& perspective) {
-  assert(perspective.color && perspective.camera);
+  assert(perspective.photo && perspective.camera);
   impl_->post([perspective](CaptureWriter& writer) { writer.add(perspective); });
 }
 
@@ -170,7 +170,7 @@ void Store::remove(int id) {
 }
 
 void Store::restore(const Perspective& perspective) {
-  assert(perspective.color && perspective.camera);
+  assert(perspective.photo && perspective.camera);
   impl_->post([perspective](CaptureWriter& writer) { writer.restore(perspective); });
 }
 

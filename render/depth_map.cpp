@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "lightfield/light_field.h"
@@ -37,8 +38,11 @@ hal::Image halved(const hal::Image& image) {
 }
 
 /// The perspective's picture, small and without the lens's distortion; grey where it has no pixel.
-SmallPicture small_picture(const Perspective& perspective) {
-  hal::Image image = *perspective.color;
+/// None if the picture is lost.
+std::optional<SmallPicture> small_picture(const Perspective& perspective) {
+  const auto pixels = perspective.photo->rgb();
+  if (!pixels) return std::nullopt;
+  hal::Image image = *pixels;
   int level = 0;
   while (image.width() * image.height() > kMaxPixels) {
     image = halved(image);
@@ -82,7 +86,7 @@ std::vector<std::pair<double, std::size_t>> nearest_by_angle(
     const Eigen::Vector3d& focus) {
   std::vector<std::pair<double, std::size_t>> ranked;
   for (std::size_t i = 0; i < perspectives.size(); ++i) {
-    if (!perspectives[i].color || !perspectives[i].camera) continue;
+    if (!perspectives[i].can_be_shown()) continue;
     ranked.emplace_back(lightfield::angle_at_subject(center, focus, perspectives[i].center()), i);
   }
   std::sort(ranked.begin(), ranked.end());
@@ -99,12 +103,16 @@ std::vector<std::size_t> depth_neighbours(const std::vector<Perspective>& perspe
   return neighbours;
 }
 
-DepthMap estimate_depth(const Perspective& perspective,
-                        const std::vector<const Perspective*>& others,
-                        const Eigen::Vector3d& focus) {
-  const SmallPicture picture = small_picture(perspective);
+std::optional<DepthMap> estimate_depth(const Perspective& perspective,
+                                       const std::vector<const Perspective*>& others,
+                                       const Eigen::Vector3d& focus) {
+  const std::optional<SmallPicture> own = small_picture(perspective);
+  if (!own) return std::nullopt;
+  const SmallPicture& picture = *own;
   std::vector<SmallPicture> pictures;
-  for (const Perspective* other : others) pictures.push_back(small_picture(*other));
+  for (const Perspective* other : others) {
+    if (auto seen = small_picture(*other)) pictures.push_back(std::move(*seen));
+  }
   std::vector<const SmallPicture*> compared;
   for (const SmallPicture& other : pictures) compared.push_back(&other);
 
@@ -116,7 +124,7 @@ DepthMap estimate_depth(const Perspective& perspective,
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
       const double index =
-          others.empty() ? (kDepths - 1) / kNearest : least(aggregated.at(x, y), kDepths);
+          compared.empty() ? (kDepths - 1) / kNearest : least(aggregated.at(x, y), kDepths);
       const float cost = costs.at(x, y)[std::lround(index)];
       map.inverse_depth.push_back(static_cast<float>(costs.inverse_depth(index)));
       map.confidence.push_back(std::min(1.0F, std::exp(-cost / kCostOfDoubt) + kLeastConfidence));

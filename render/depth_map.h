@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,8 +22,8 @@ struct DepthMap {
   double along(const Eigen::Vector3d& ray) const;
 };
 
-/// Angle at S to `center`, radians, and index of all perspectives that have a picture and a camera;
-/// the nearest first.
+/// Angle at S to `center`, radians, and index of all perspectives that can be shown; the nearest
+/// first.
 std::vector<std::pair<double, std::size_t>> nearest_by_angle(
     const std::vector<lightfield::Perspective>& perspectives, const Eigen::Vector3d& center,
     const Eigen::Vector3d& focus);
@@ -33,9 +34,10 @@ std::vector<std::size_t> depth_neighbours(const std::vector<lightfield::Perspect
                                           std::size_t index, const Eigen::Vector3d& focus);
 
 /// Depth of a perspective's pixels from the pictures of others, by a plane sweep; `focus` is what
-/// lies in the middle of the range searched. Without others everything is as far as the focus.
-DepthMap estimate_depth(const lightfield::Perspective& perspective,
-                        const std::vector<const lightfield::Perspective*>& others,
-                        const Eigen::Vector3d& focus);
+/// lies in the middle of the range searched. Others whose picture is lost count for nothing;
+/// without others everything is as far as the focus. None if its own picture is lost.
+std::optional<DepthMap> estimate_depth(const lightfield::Perspective& perspective,
+                                       const std::vector<const lightfield::Perspective*>& others,
+                                       const Eigen::Vector3d& focus);
 
 }  // namespace lumibox::render

@@ -19,20 +19,21 @@ std::shared_ptr<const DepthMap> estimate(const std::vector<Perspective>& perspec
                                          const Eigen::Vector3d& focus) {
   std::vector<const Perspective*> others;
   for (std::size_t i = 1; i < perspectives.size(); ++i) others.push_back(&perspectives[i]);
-  return std::make_shared<DepthMap>(estimate_depth(perspectives.front(), others, focus));
+  auto map = estimate_depth(perspectives.front(), others, focus);
+  return map ? std::make_shared<const DepthMap>(std::move(*map)) : nullptr;
 }
 
-bool same_pictures(const std::vector<Perspective>& a, const std::vector<Perspective>& b) {
+bool same_photos(const std::vector<Perspective>& a, const std::vector<Perspective>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const Perspective& p, const Perspective& q) { return p.color == q.color; });
+                    [](const Perspective& p, const Perspective& q) { return p.photo == q.photo; });
 }
 
 }  // namespace
 
 bool DepthMaps::Entry::is_of(const Job& job) const {
   return std::equal(
-      pictures.begin(), pictures.end(), job.perspectives.begin(), job.perspectives.end(),
-      [](const auto& picture, const Perspective& p) { return picture.lock() == p.color; });
+      photos.begin(), photos.end(), job.perspectives.begin(), job.perspectives.end(),
+      [](const auto& photo, const Perspective& p) { return photo.lock() == p.photo; });
 }
 
 DepthMaps::DepthMaps(Estimating estimating) {
@@ -62,7 +63,7 @@ std::shared_ptr<const DepthMap> DepthMaps::map_of(const std::vector<Perspective>
   }
   auto older = find(job, true);
   const auto is_asked_for = [&](const Job& other) {
-    return same_pictures(other.perspectives, job.perspectives);
+    return same_photos(other.perspectives, job.perspectives);
   };
   if (current_ && is_asked_for(*current_)) return older;
   std::erase_if(jobs_, is_asked_for);
@@ -75,7 +76,7 @@ std::shared_ptr<const DepthMap> DepthMaps::map_of(const std::vector<Perspective>
 /// The map of these pictures, or of the first of them with whatever neighbours.
 std::shared_ptr<const DepthMap> DepthMaps::find(const Job& job, bool any_neighbours) {
   const auto known = std::find_if(entries_.rbegin(), entries_.rend(), [&](const Entry& entry) {
-    return any_neighbours ? entry.pictures.front().lock() == job.perspectives.front().color
+    return any_neighbours ? entry.photos.front().lock() == job.perspectives.front().photo
                           : entry.is_of(job);
   });
   if (known == entries_.rend()) return nullptr;
@@ -86,7 +87,7 @@ std::shared_ptr<const DepthMap> DepthMaps::find(const Job& job, bool any_neighbo
 void DepthMaps::keep(const Job& job, std::shared_ptr<const DepthMap> map) {
   if (entries_.size() == kMaxMaps) entries_.erase(entries_.begin());
   Entry entry;
-  for (const Perspective& p : job.perspectives) entry.pictures.push_back(p.color);
+  for (const Perspective& p : job.perspectives) entry.photos.push_back(p.photo);
   entry.map = std::move(map);
   entries_.push_back(std::move(entry));
 }

@@ -30,7 +30,8 @@ class DepthMaps {
   DepthMaps(const DepthMaps&) = delete;
   DepthMaps& operator=(const DepthMaps&) = delete;
 
-  /// The map of a perspective. Meanwhile: null if it is not there yet, or one of fewer neighbours.
+  /// The map of a perspective; null if its picture is lost. Meanwhile: null if it is not there yet,
+  /// or one of fewer neighbours.
   std::shared_ptr<const DepthMap> map_of(const std::vector<lightfield::Perspective>& perspectives,
                                          std::size_t index, const Eigen::Vector3d& focus);
 
@@ -41,7 +42,7 @@ class DepthMaps {
     Eigen::Vector3d focus = Eigen::Vector3d::Zero();
   };
   struct Entry {
-    std::vector<std::weak_ptr<const hal::Image>> pictures;  ///< of a job's perspectives
+    std::vector<std::weak_ptr<const lightfield::Photo>> photos;  ///< of a job's perspectives
     std::shared_ptr<const DepthMap> map;
 
     bool is_of(const Job& job) const;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "render/image_quality.h"
 #include "render/sampling.h"
@@ -57,7 +58,7 @@ std::vector<Method> compared_methods(const config::Render& options, const Eigen:
 UndistortedPicture undistort(const Perspective& perspective) {
   const geometry::Camera& camera = *perspective.camera;
   const geometry::Camera pinhole = camera.undistorted();
-  const hal::Image& from = *perspective.color;
+  const std::shared_ptr<const hal::Image> from = perspective.photo->require_rgb();
   UndistortedPicture result{hal::Image(pinhole.width(), pinhole.height(), 3),
                             hal::Image(pinhole.width(), pinhole.height(), 1)};
   for (int y = 0; y < pinhole.height(); ++y) {
@@ -65,7 +66,7 @@ UndistortedPicture undistort(const Perspective& perspective) {
       const Eigen::Vector3d ray = pinhole.unproject(Eigen::Vector2d(x, y))->homogeneous();
       const auto pixel = camera.project(ray);
       if (!pixel || !camera.contains(*pixel)) continue;
-      const Eigen::Vector3d color = sample_bilinear(from, *pixel);
+      const Eigen::Vector3d color = sample_bilinear(*from, *pixel);
       for (int c = 0; c < 3; ++c) {
         result.color.at(x, y)[c] = static_cast<std::uint8_t>(std::lround(color[c]));
       }

@@ -49,7 +49,8 @@ struct MethodQuality {
 using RenderView = std::function<hal::Image(
     const View&, const std::vector<lightfield::Perspective>&, const Method&)>;
 
-/// A perspective's picture without its lens's distortion, at the same focal length and size.
+/// A perspective's picture without its lens's distortion, at the same focal length and size. Throws
+/// config::InputError if the picture is lost.
 struct UndistortedPicture {
   hal::Image color;  ///< three channels
   hal::Image valid;  ///< one channel: 255 where the photograph has the pixel

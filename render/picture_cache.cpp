@@ -59,9 +59,16 @@ void PictureCache::allocate(std::size_t slots, int width, int height) {
   }
 }
 
-int PictureCache::slot_of(const std::shared_ptr<const hal::Image>& picture) {
+std::optional<int> PictureCache::slot_of(const std::shared_ptr<const lightfield::Photo>& picture) {
   const auto [slot, is_new] = slots_.place_of(picture);
-  if (is_new) upload(*picture, slot);
+  if (is_new) {
+    const auto pixels = picture->rgb();
+    if (!pixels) {
+      slots_.forget(slot);
+      return std::nullopt;
+    }
+    upload(*pixels, slot);
+  }
   return static_cast<int>(slot);
 }
 

@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "hal/image.h"
+#include "lightfield/photo.h"
 #include "render/gl.h"
 #include "render/texture_slots.h"
 
@@ -20,9 +22,9 @@ class PictureCache {
   /// config::InputError if the GPU has no room.
   void begin_view(std::size_t pictures, int width, int height);
 
-  /// Slot of a picture with three channels, uploaded if it is not there; valid until the next
-  /// begin_view().
-  int slot_of(const std::shared_ptr<const hal::Image>& picture);
+  /// Slot of a picture, uploaded if it is not there; valid until the next begin_view(). None if the
+  /// picture is lost.
+  std::optional<int> slot_of(const std::shared_ptr<const lightfield::Photo>& picture);
 
   GLuint texture() const { return texture_.name(); }
   int width() const { return width_; }    ///< pixels of a slot
@@ -35,7 +37,7 @@ class PictureCache {
   gl::Texture texture_;
   int width_ = 0;
   int height_ = 0;
-  TextureSlots<hal::Image> slots_;
+  TextureSlots<lightfield::Photo> slots_;
   std::vector<std::uint8_t> rgba_;  ///< of the picture being uploaded
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "render/blending.h"
@@ -39,39 +40,34 @@ struct Contribution {
   double closeness = 1.0;  ///< on a shape, see render::closeness
 };
 
-Eigen::Vector3d light_at(const lightfield::Perspective& perspective, const Eigen::Vector2d& pixel) {
-  return perspective.gain * light_of(sample_bilinear(*perspective.color, pixel));
-}
-
 Contribution contribution(const Ray& ray, const Layer& layer,
-                          const lightfield::Perspective& perspective, const Settings& settings) {
+                          const lightfield::Perspective& perspective, const hal::Image& image,
+                          const Settings& settings) {
   const std::optional<Eigen::Vector3d> point = intersect(ray, layer.normal, settings.focus);
   if (!point) return {};
   const std::optional<Eigen::Vector2d> pixel =
       perspective.camera->project(perspective.world_from_camera.inverse() * *point);
   if (!pixel) return {};
-  const hal::Image& image = *perspective.color;
   const double fade = feather(*pixel, image.width(), image.height(), settings.feather_px);
   if (fade <= 0.0) return {};
-  return {light_at(perspective, *pixel), layer.weight * fade};
+  return {perspective.gain * light_of(sample_bilinear(image, *pixel)), layer.weight * fade};
 }
 
 /// The same where the pixel's ray meets a shape at an inverse depth.
 Contribution contribution_on_shape(const Eigen::Vector3d& pixel_of_view, double inverse_depth,
                                    const Layer& layer, const lightfield::Perspective& perspective,
-                                   const Settings& settings) {
+                                   const hal::Image& image, const Settings& settings) {
   const Eigen::Vector3d ray_of_view = layer.source_from_pixel * pixel_of_view;
   const Eigen::Vector3d ray_of_source = ray_of_view + inverse_depth * layer.shift;
   const std::optional<Eigen::Vector2d> pixel = perspective.camera->project(ray_of_source);
   if (!pixel) return {};
-  const hal::Image& image = *perspective.color;
   const double fade = feather(*pixel, image.width(), image.height(), settings.feather_px);
   if (fade <= 0.0) return {};
   double close = closeness(ray_of_view, ray_of_source);
   if (layer.map && inverse_depth > 0.0) {
     close *= visibility(layer.map->along(ray_of_source), inverse_depth / ray_of_source.z());
   }
-  return {light_at(perspective, *pixel), layer.weight * fade, close};
+  return {perspective.gain * light_of(sample_bilinear(image, *pixel)), layer.weight * fade, close};
 }
 
 /// Thesis 3.2, wide aperture: weighted mean; on a shape the closer ones count more.
@@ -99,12 +95,26 @@ Eigen::Vector3d blend_small(const std::vector<Contribution>& contributions) {
   return light;
 }
 
+using Pixels = std::shared_ptr<const hal::Image>;
+
+std::vector<Pixels> pixels_of(const std::vector<Layer>& layers,
+                              const std::vector<lightfield::Perspective>& perspectives) {
+  std::vector<Pixels> pixels;
+  for (const Layer& layer : layers) pixels.push_back(perspectives[layer.perspective].photo->rgb());
+  return pixels;
+}
+
 }  // namespace
 
 hal::Image render_reference(const View& view,
                             const std::vector<lightfield::Perspective>& perspectives,
                             const Settings& settings) {
-  const std::vector<Layer> layers = plan_view(view, perspectives, settings);
+  std::vector<Layer> layers;
+  std::vector<Pixels> pixels;
+  do {  // a picture that turns out to be lost is left out from then on
+    layers = plan_view(view, perspectives, settings);
+    pixels = pixels_of(layers, perspectives);
+  } while (std::ranges::find(pixels, nullptr) != pixels.end());
   hal::Image image(view.camera.width(), view.camera.height(), 3);
   std::vector<Contribution> contributions(layers.size());
   for (int v = 0; v < image.height(); ++v) {
@@ -112,10 +122,11 @@ hal::Image render_reference(const View& view,
       const Ray ray = ray_of_pixel(view, u, v);
       for (std::size_t i = 0; i < layers.size(); ++i) {
         const lightfield::Perspective& perspective = perspectives[layers[i].perspective];
-        contributions[i] = settings.shape ? contribution_on_shape(Eigen::Vector3d(u, v, 1.0),
-                                                                  settings.shape->grid.at(u, v),
-                                                                  layers[i], perspective, settings)
-                                          : contribution(ray, layers[i], perspective, settings);
+        contributions[i] =
+            settings.shape
+                ? contribution_on_shape(Eigen::Vector3d(u, v, 1.0), settings.shape->grid.at(u, v),
+                                        layers[i], perspective, *pixels[i], settings)
+                : contribution(ray, layers[i], perspective, *pixels[i], settings);
       }
       const Eigen::Vector3d light = settings.shape || settings.aperture == Aperture::Wide
                                         ? blend_wide(contributions, settings.shape != nullptr)

@@ -72,10 +72,9 @@ class Renderer::Impl {
 
   void draw(const View& view, const std::vector<Perspective>& perspectives,
             const Settings& settings, unsigned framebuffer) {
-    std::vector<Layer> layers = plan_view(view, perspectives, settings);
-    const std::size_t planned = layers.size();
-    std::erase_if(layers, [](const Layer& layer) { return layer.weight <= 0.0; });
-    const Kind kind = fill_uniforms(layers, perspectives, view, settings);
+    const Plan plan = plan_with_pictures(view, perspectives, settings);
+    const std::vector<Layer>& layers = plan.layers;
+    const Kind kind = fill_uniforms(plan, perspectives, view, settings);
 
     gl::begin(framebuffer, view.camera.width(), view.camera.height(), gl::Blend::Replace);
     const Variant& variant = variant_for(kind);
@@ -86,7 +85,7 @@ class Renderer::Impl {
     glUniform2f(variant.texel_size, 1.0F / static_cast<float>(std::max(1, cache_.width())),
                 1.0F / static_cast<float>(std::max(1, cache_.height())));
     glUniform1f(variant.least_total_weight,
-                static_cast<float>(least_total_weight(planned, kind.shape)));
+                static_cast<float>(least_total_weight(plan.planned, kind.shape)));
     glUniform1f(variant.stop, static_cast<float>(settings.small_aperture_stop));
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, uniforms_.name());
     glActiveTexture(GL_TEXTURE0);
@@ -97,46 +96,73 @@ class Renderer::Impl {
   }
 
   void upload(const Perspective& perspective) {
-    const hal::Image& picture = *perspective.color;
-    cache_.begin_view(1, picture.width(), picture.height());
-    cache_.slot_of(perspective.color);
+    const lightfield::Photo& photo = *perspective.photo;
+    cache_.begin_view(1, photo.width(), photo.height());
+    cache_.slot_of(perspective.photo);
   }
 
  private:
-  /// Brings the layers' data to the GPU, with the pictures and depth maps that are not there.
-  Kind fill_uniforms(const std::vector<Layer>& layers, const std::vector<Perspective>& perspectives,
-                     const View& view, const Settings& settings) {
-    const LayerData data =
-        layer_data(view, perspectives, settings, layers, slots_of(layers, perspectives));
-    glBindBuffer(GL_UNIFORM_BUFFER, uniforms_.name());
-    glBufferSubData(GL_UNIFORM_BUFFER, 0,
-                    static_cast<GLsizeiptr>(data.layers.size() * sizeof(LayerUniforms)),
-                    data.layers.data());
-    return data.kind;
+  /// The layers of a view that have a weight, and where their pictures are.
+  struct Plan {
+    std::vector<Layer> layers;
+    std::vector<int> slots;   ///< of the layers' pictures
+    std::size_t planned = 0;  ///< layers, with those without a weight
+  };
+
+  /// plan_view() with all pictures on the GPU. One that turns out to be lost makes room for the
+  /// next: from then on plan_view() leaves it out.
+  Plan plan_with_pictures(const View& view, const std::vector<Perspective>& perspectives,
+                          const Settings& settings) {
+    while (true) {
+      Plan plan{plan_view(view, perspectives, settings), {}, 0};
+      plan.planned = plan.layers.size();
+      std::erase_if(plan.layers, [](const Layer& layer) { return layer.weight <= 0.0; });
+      plan.slots = picture_slots(plan.layers, perspectives);
+      if (plan.slots.size() == plan.layers.size()) return plan;
+    }
   }
 
-  std::vector<LayerSlots> slots_of(const std::vector<Layer>& layers,
-                                   const std::vector<Perspective>& perspectives) {
-    std::vector<LayerSlots> slots;
-    if (layers.empty()) return slots;
+  /// Fewer than layers if pictures are lost.
+  std::vector<int> picture_slots(const std::vector<Layer>& layers,
+                                 const std::vector<Perspective>& perspectives) {
     int width = 0;
     int height = 0;
-    std::vector<const DepthMap*> maps;
     for (const Layer& layer : layers) {
-      width = std::max(width, perspectives[layer.perspective].camera->width());
-      height = std::max(height, perspectives[layer.perspective].camera->height());
-      maps.push_back(layer.map.get());
+      width = std::max(width, perspectives[layer.perspective].photo->width());
+      height = std::max(height, perspectives[layer.perspective].photo->height());
     }
-    cache_.begin_view(layers.size(), width, height);
-    maps_.begin_view(maps);
+    if (!layers.empty()) cache_.begin_view(layers.size(), width, height);
+    std::vector<int> slots;
     for (const Layer& layer : layers) {
-      slots.push_back({cache_.slot_of(perspectives[layer.perspective].color)});
+      const auto slot = cache_.slot_of(perspectives[layer.perspective].photo);
+      if (slot) slots.push_back(*slot);
+    }
+    return slots;
+  }
+
+  /// Brings the layers' data to the GPU, with the depth maps that are not there.
+  Kind fill_uniforms(const Plan& plan, const std::vector<Perspective>& perspectives,
+                     const View& view, const Settings& settings) {
+    std::vector<LayerSlots> slots;
+    if (settings.shape) {
+      std::vector<const DepthMap*> maps;
+      for (const Layer& layer : plan.layers) maps.push_back(layer.map.get());
+      maps_.begin_view(maps);
+    }
+    for (std::size_t i = 0; i < plan.layers.size(); ++i) {
+      slots.push_back({plan.slots[i]});
+      const Layer& layer = plan.layers[i];
       if (!layer.map) continue;
       const MapCache::Slot map = maps_.slot_of(layer.map);
       slots.back().map = map.index;
       if (map.largest > 0.0) slots.back().largest_map = map.largest;
     }
-    return slots;
+    const LayerData data = layer_data(view, perspectives, settings, plan.layers, slots);
+    glBindBuffer(GL_UNIFORM_BUFFER, uniforms_.name());
+    glBufferSubData(GL_UNIFORM_BUFFER, 0,
+                    static_cast<GLsizeiptr>(data.layers.size() * sizeof(LayerUniforms)),
+                    data.layers.data());
+    return data.kind;
   }
 
   void bind_shape(const View& view, const Settings& settings, const Variant& variant) {

@@ -19,7 +19,7 @@ class Renderer {
   Renderer& operator=(const Renderer&) = delete;
 
   /// Draws the view into `framebuffer`, which has the size of view.camera; every pixel is written.
-  /// Pictures not yet on the GPU are uploaded first.
+  /// Pictures not yet on the GPU are uploaded first; those that are lost are left out.
   void draw(const View& view, const std::vector<lightfield::Perspective>& perspectives,
             const Settings& settings, unsigned framebuffer);
 

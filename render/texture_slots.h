@@ -36,6 +36,9 @@ class TextureSlots {
     return {static_cast<std::size_t>(slot - slots_.begin()), is_new};
   }
 
+  /// Nothing could be put there.
+  void forget(std::size_t slot) { slots_[slot] = {}; }
+
  private:
   struct Slot {
     std::weak_ptr<const Thing> held;

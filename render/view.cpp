@@ -92,10 +92,7 @@ std::vector<Layer> visible_layers(const View& view,
   const Eigen::Vector3d towards_view = view.world_from_camera.translation - focus;
   for (std::size_t i = 0; i < perspectives.size(); ++i) {
     const lightfield::Perspective& perspective = perspectives[i];
-    if (!perspective.camera || !perspective.color || perspective.color->channels() != 3 ||
-        perspective.color->empty()) {
-      continue;
-    }
+    if (!perspective.can_be_shown()) continue;
     std::optional<Layer> layer = settings.shape ? make_turned_layer(view, perspective)
                                                 : make_layer(view, perspective, focus);
     if (!layer) continue;

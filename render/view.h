@@ -89,9 +89,9 @@ double closeness(const Eigen::Vector3d& ray_of_view, const Eigen::Vector3d& ray_
 double visibility(double seen, double inverse_depth);
 
 /// Layers of a view in order of increasing penalty: selection, proxy planes and weights of
-/// thesis 3. Perspectives without a picture and those whose plane cannot be seen from the view
-/// (edge-on, or behind view or source at every pixel) do not count as candidates. Pure and
-/// deterministic: of equal penalties the smaller id comes first.
+/// thesis 3. Perspectives without a picture (or whose is lost) and those whose plane cannot be seen
+/// from the view (edge-on, or behind view or source at every pixel) do not count as candidates.
+/// Pure and deterministic: of equal penalties the smaller id comes first.
 std::vector<Layer> plan_view(const View& view,
                              const std::vector<lightfield::Perspective>& perspectives,
                              const Settings& settings);

@@ -95,6 +95,7 @@ void evaluate(const EvaluateOptions& options) {
                                       progress.show(static_cast<std::int64_t>(view));
                                     });
   }
+  require_all_pictures(capture);
   print_table(methods);
   if (options.json) {
     write_json(*options.json, to_json(methods));

@@ -67,6 +67,7 @@ void render_views(const RenderOptions& options) {
         painter.paint(view, perspectives, proxy.fit(settings, geometry, view, perspectives)));
     progress.show(static_cast<std::int64_t>(i + 1));
   }
+  require_all_pictures(capture);
 }
 
 }  // namespace lumibox::app

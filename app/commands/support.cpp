@@ -51,6 +51,10 @@ const lightfield::Sphere& subject_of(const lightfield::Capture& capture) {
   return *capture.light_field.subject();
 }
 
+void require_all_pictures(const lightfield::Capture& capture) {
+  if (const auto lost = capture.light_field.lost_pictures()) throw config::InputError(*lost);
+}
+
 void write_json(const std::filesystem::path& file, const nlohmann::json& json) {
   config::write_text(file, json.dump(2) + "\n");
 }

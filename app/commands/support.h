@@ -30,6 +30,10 @@ void make_parent_folder(const std::filesystem::path& file);
 /// The capture's subject; throws config::InputError if it has none.
 const lightfield::Sphere& subject_of(const lightfield::Capture& capture);
 
+/// Throws config::InputError if a picture of the capture was lost since it was loaded: what was
+/// made without it is not what was asked for.
+void require_all_pictures(const lightfield::Capture& capture);
+
 /// Makes a folder for results; throws config::InputError if it cannot be made.
 void make_folder(const std::filesystem::path& folder);
 

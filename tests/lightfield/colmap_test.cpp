@@ -12,8 +12,8 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 void write_picture(const fs::path& path) {
-  const auto bytes =
-      hal::encode_jpeg(*make_perspective(0, Eigen::Vector3d::Zero(), small_camera()).color, 90);
+  const auto bytes = hal::encode_jpeg(
+      *make_perspective(0, Eigen::Vector3d::Zero(), small_camera()).photo->rgb(), 90);
   write_text(path, std::string(bytes.begin(), bytes.end()));
 }
 

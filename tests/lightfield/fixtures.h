@@ -13,6 +13,7 @@
 #include "config/error.h"
 #include "geometry/rotation.h"
 #include "lightfield/capture.h"
+#include "support/photo.h"
 
 namespace lumibox::lightfield {
 
@@ -107,7 +108,7 @@ inline Perspective make_perspective(int i, const Eigen::Vector3d& subject,
   perspective.id = i;
   perspective.world_from_camera = orbit_pose(i, subject);
   perspective.timestamp_ns = 1305031102175304123LL + i * 33333333LL;
-  perspective.color = std::make_shared<const hal::Image>(std::move(image));
+  perspective.photo = testing::photo_of(std::move(image));
   perspective.camera = std::move(camera);
   perspective.keyframe = i / 3;
   perspective.keyframe_from_camera = geometry::Pose(

@@ -20,7 +20,8 @@ class OneFrame {
  public:
   explicit OneFrame(const std::string& picture = "images/a.jpg") {
     fs::create_directories((folder_ / picture).parent_path());
-    const hal::Image image = *make_perspective(0, Eigen::Vector3d::Zero(), small_camera()).color;
+    const hal::Image image =
+        *make_perspective(0, Eigen::Vector3d::Zero(), small_camera()).photo->rgb();
     if (picture.ends_with(".png")) {
       hal::write_png(folder_ / picture, image);
     } else {
@@ -211,7 +212,7 @@ TEST(ImportTransforms, AsksForPointsOnlyWhereThereAreNone) {
   std::size_t asked = 0;
   const PointFinder finder = [&](const std::vector<Perspective>& perspectives) {
     asked += perspectives.size();
-    EXPECT_FALSE(perspectives.at(0).color->empty());
+    EXPECT_TRUE(perspectives.at(0).photo->rgb());
     return std::vector<Eigen::Vector3d>{{0.0, 0.0, -7.0}};
   };
   source.import("\"fl_x\":20,", "");

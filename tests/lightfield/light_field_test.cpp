@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "lightfield/coverage.h"
+#include "support/photo.h"
 
 namespace lumibox::lightfield {
 namespace {
@@ -217,6 +218,23 @@ TEST(LightField, StoredIdsAreKeptAndNotReused) {
   LightField light_field(stored, std::nullopt);
   EXPECT_THAT(ids(light_field), ElementsAre(2, 7));
   EXPECT_EQ(light_field.add(at(Vector3d::UnitZ())), 8);
+}
+
+TEST(LightField, SaysHowManyPicturesAreLostAndWhyTheFirstIs) {
+  LightField light_field;
+  for (int i = 0; i < 3; ++i) {
+    Perspective perspective = at(Vector3d::UnitX());
+    perspective.photo = testing::photo_of(hal::Image(16, 12, 3));
+    perspective.photo->stored_in("/nowhere/" + std::to_string(i) + ".jpg");
+    light_field.add(perspective);
+  }
+  light_field.add(at(Vector3d::UnitY()));  // has none that could be lost
+  EXPECT_EQ(light_field.lost_pictures(), std::nullopt) << "nobody has looked";
+  for (const std::size_t i : {2U, 1U}) light_field.perspectives()[i].photo->rgb();
+  const std::string said = light_field.lost_pictures().value_or("");
+  EXPECT_THAT(said,
+              ::testing::StartsWith("2 of 4 pictures are lost: /nowhere/1.jpg: no such file"));
+  EXPECT_FALSE(light_field.perspectives()[2].can_be_shown());
 }
 
 RC_GTEST_PROP(Coverage, DotLiesOnTheSphereTowardsTheCamera, ()) {

@@ -11,6 +11,7 @@
 #include "lightfield/epipolar_matching.h"
 #include "lightfield/features.h"
 #include "lightfield/neighbours.h"
+#include "support/photo.h"
 #include "support/pinhole.h"
 
 namespace lumibox::lightfield {
@@ -87,7 +88,7 @@ Perspective photograph(const Room& room, const geometry::Pose& world_from_camera
       *gray.at(x, y) = static_cast<std::uint8_t>(std::lround(20.0 + 215.0 * value));
     }
   }
-  perspective.color = std::make_shared<const hal::Image>(hal::to_rgb(gray));
+  perspective.photo = testing::photo_of(hal::to_rgb(gray));
   return perspective;
 }
 
@@ -286,7 +287,7 @@ Perspective spot_at(const Eigen::Vector2d& middle, int width, int height, double
           std::lround(30.0 + 200.0 * std::exp(-r2 / (2.0 * sigma * sigma))));
     }
   }
-  perspective.color = std::make_shared<const hal::Image>(hal::to_rgb(gray));
+  perspective.photo = testing::photo_of(hal::to_rgb(gray));
   return perspective;
 }
 

@@ -72,7 +72,8 @@ TEST(Store, LoadsBackWhatWasRecorded) {
               1e-14);
     EXPECT_NEAR(loaded.camera->profile().cx, taken.camera->profile().cx, 1e-14);
     EXPECT_EQ(loaded.camera->profile().p2, taken.camera->profile().p2);
-    EXPECT_EQ(*loaded.color, hal::decode_jpeg(hal::encode_jpeg(*taken.color, 90), "memory"));
+    EXPECT_EQ(*loaded.photo->rgb(),
+              hal::decode_jpeg(hal::encode_jpeg(*taken.photo->rgb(), 90), "memory"));
   }
 }
 
@@ -146,6 +147,81 @@ TEST(Store, WipedPictureStaysUntilTheEnd) {
   }
   EXPECT_FALSE(fs::exists(folder / "c/images/000001.jpg"));
   EXPECT_TRUE(fs::exists(folder / "c/images/000002.jpg"));
+}
+
+/// Bytes of pixels that all photos of a light field hold.
+std::size_t bytes_held(const std::vector<Perspective>& perspectives) {
+  std::size_t bytes = 0;
+  for (const Perspective& perspective : perspectives) bytes += perspective.photo->bytes_held();
+  return bytes;
+}
+
+TEST(Store, PicturesLeaveTheMemoryWhenTheyAreOnDisk) {
+  for (const Writing writing : {Writing::Inline, Writing::Threaded}) {
+    const TemporaryFolder folder;
+    const Perspective taken = make_perspective(0, kSphere.center, small_camera());
+    int steps = 0;
+    const auto check = [&](DurableFiles::Step, const fs::path& path) {
+      if (!path.filename().string().starts_with("000000")) return;
+      ++steps;
+      EXPECT_GT(taken.photo->bytes_held(), 0U) << "not all of it is done";
+    };
+    Store store(folder / "c", 90, writing, DurableFiles(check));
+    store.add(taken);
+    if (writing == Writing::Threaded) store.flush();
+    EXPECT_GE(steps, 3) << "written, synced, renamed";
+    EXPECT_EQ(taken.photo->bytes_held(), 0U);
+    EXPECT_EQ(*taken.photo->rgb(), hal::read_image(folder / "c/images/000000.jpg"));
+  }
+}
+
+TEST(Store, PicturesThatCannotBeStoredStayInMemory) {
+  for (const Writing writing : {Writing::Inline, Writing::Threaded}) {
+    const TemporaryFolder folder;
+    std::vector<Perspective> taken;
+    for (int i = 0; i < 3; ++i) {
+      taken.push_back(make_perspective(i, kSphere.center, small_camera()));
+    }
+    const std::size_t each = taken[0].photo->bytes_held();
+    Store store(folder / "c", 90, writing);
+    fs::remove_all(folder / "c/images");
+    for (const Perspective& perspective : taken) store.add(perspective);
+    EXPECT_THAT(input_error([&] { store.flush(); }), HasSubstr("images/000000.jpg"));
+    EXPECT_EQ(bytes_held(taken), 3 * each);
+    for (const Perspective& perspective : taken) EXPECT_TRUE(perspective.photo->rgb());
+  }
+}
+
+TEST(Store, UndoNeedsNoPixels) {
+  const TemporaryFolder folder;
+  const Perspective taken = make_perspective(0, kSphere.center, small_camera());
+  {
+    Store store(folder / "c", 90, Writing::Inline);
+    store.add(taken);
+    store.remove(0);
+    store.flush();
+    const std::string before = read_text(folder / "c/images/000000.jpg");
+    store.restore(taken);
+    EXPECT_EQ(read_text(folder / "c/images/000000.jpg"), before);
+  }
+  EXPECT_EQ(taken.photo->bytes_held(), 0U);
+  EXPECT_EQ(*load_capture(folder / "c").light_field.perspectives().at(0).photo->rgb(),
+            *taken.photo->rgb());
+}
+
+TEST(Store, ACaptureThatIsLoadedHoldsNoPixels) {
+  const TemporaryFolder folder;
+  save_capture(make_capture(3), folder / "c", 90);
+  const Capture loaded = load_capture(folder / "c");
+  EXPECT_EQ(bytes_held(loaded.light_field.perspectives()), 0U);
+  Store store(loaded, 0, 90, Writing::Inline);
+  store.remove(1);
+  store.restore(loaded.light_field.perspectives()[1]);
+  store.flush();
+  EXPECT_EQ(bytes_held(loaded.light_field.perspectives()), 0U);
+  const Capture imported = import_capture(folder / "c");
+  EXPECT_EQ(bytes_held(imported.light_field.perspectives()), 0U);
+  EXPECT_TRUE(imported.light_field.perspectives().at(2).photo->rgb());
 }
 
 TEST(Store, DifferentCamerasAreWrittenWithEachFrame) {

@@ -6,6 +6,7 @@
 #include "geometry/rotation.h"
 #include "numerics/trap.h"
 #include "render/view.h"
+#include "support/photo.h"
 
 namespace lumibox::render {
 namespace {
@@ -63,7 +64,7 @@ lightfield::Perspective turned_by(double angle) {
   lightfield::Perspective p;
   p.world_from_camera.rotation = geometry::exp_so3({0.0, angle, 0.0});
   p.world_from_camera.translation = p.world_from_camera.rotation * Vector3d(0.0, 0.0, -4.0);
-  p.color = std::make_shared<const hal::Image>(64, 48, 3);
+  p.photo = testing::photo_of(hal::Image(64, 48, 3));
   config::CameraProfile profile;
   profile.width = 64;
   profile.height = 48;

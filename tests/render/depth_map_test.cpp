@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -47,7 +48,7 @@ TEST(DepthMap, IsTheDepthOfWhatThePicturesShow) {
       others.push_back(&perspectives[i]);
     }
     ASSERT_EQ(others.size(), 4U);
-    const DepthMap map = estimate_depth(perspectives[0], others, kSubject);
+    const DepthMap map = estimate_depth(perspectives[0], others, kSubject).value();
     std::vector<double> errors;
     std::size_t i = 0;
     for (int y = 0; y < map.camera.height(); ++y) {
@@ -65,9 +66,24 @@ TEST(DepthMap, IsTheDepthOfWhatThePicturesShow) {
 TEST(DepthMap, WithoutNeighboursLiesAtTheFocus) {
   const auto perspectives = around_a_ball(test::make_camera(48, 36), 1);
   EXPECT_TRUE(depth_neighbours(perspectives, 0, kSubject).empty());
-  const DepthMap map = estimate_depth(perspectives[0], {}, kSubject);
+  const DepthMap map = estimate_depth(perspectives[0], {}, kSubject).value();
   const double wanted = 1.0 / perspectives[0].center().norm();
   for (const float rho : map.inverse_depth) EXPECT_NEAR(rho, wanted, 1e-6);
+}
+
+TEST(DepthMap, OfALostPictureThereIsNone) {
+  auto perspectives = around_a_ball(test::make_camera(48, 36), 4);
+  const std::vector<const Perspective*> one = {&perspectives[1]};
+  const DepthMap from_one = estimate_depth(perspectives[0], one, kSubject).value();
+  perspectives[2].photo->stored_in("/nowhere/2.png");
+  EXPECT_EQ(estimate_depth(perspectives[0], {&perspectives[1], &perspectives[2]}, kSubject)
+                ->inverse_depth,
+            from_one.inverse_depth)
+      << "one that is lost counts for nothing";
+  EXPECT_FALSE(estimate_depth(perspectives[2], one, kSubject));
+  DepthMaps maps(Estimating::AtOnce);
+  EXPECT_EQ(maps.map_of(perspectives, 2, kSubject), nullptr);
+  EXPECT_THAT(depth_neighbours(perspectives, 0, kSubject), ::testing::Not(::testing::Contains(2U)));
 }
 
 TEST(DepthMap, NeighboursAreTheNearestThatShowParallax) {

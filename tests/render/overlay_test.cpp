@@ -63,7 +63,7 @@ TEST_F(OverlayTest, ALensIsStraightened) {
     const auto perspective =
         test::photograph_perspective(0, test::textured_ball(1.0), lens, front_.world_from_camera);
     const View view{lens.undistorted(), front_.world_from_camera};
-    overlay_->draw_image(*perspective.color, *perspective.camera, view, 1.0F, framebuffer());
+    overlay_->draw_image(*perspective.photo->rgb(), *perspective.camera, view, 1.0F, framebuffer());
     const hal::Image shown = read_back();
     const UndistortedPicture expected = undistort(perspective);
     for (int y = 0; y < kHeight; ++y) {

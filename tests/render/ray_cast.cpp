@@ -6,6 +6,7 @@
 #include <optional>
 #include <random>
 
+#include "support/photo.h"
 namespace lumibox::test {
 namespace {
 
@@ -112,8 +113,7 @@ lightfield::Perspective photograph_perspective(int id, const World& world,
   lightfield::Perspective perspective;
   perspective.id = id;
   perspective.world_from_camera = world_from_camera;
-  perspective.color =
-      std::make_shared<const hal::Image>(photograph(world, camera, world_from_camera));
+  perspective.photo = testing::photo_of(photograph(world, camera, world_from_camera));
   perspective.camera = std::make_shared<const geometry::Camera>(camera);
   return perspective;
 }

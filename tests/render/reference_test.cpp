@@ -59,7 +59,8 @@ TEST(Reference, AtARecordedViewShowsItsPicture) {
   const auto perspectives = test::random_capture(world, camera, 8, 4.0, 0.4, 3);
   const View view{camera, perspectives[2].world_from_camera};
   const hal::Image mask = middle(160, 120);
-  EXPECT_GT(psnr(render_reference(view, perspectives, {}), *perspectives[2].color, &mask), 55.0);
+  EXPECT_GT(psnr(render_reference(view, perspectives, {}), *perspectives[2].photo->rgb(), &mask),
+            55.0);
 }
 
 // Refocusing: a plane off S is blurred by the wide aperture, and sharp when S is moved onto it.

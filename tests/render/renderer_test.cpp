@@ -12,6 +12,8 @@
 #include "render/proxy_geometry.h"
 #include "render/ray_cast.h"
 #include "render/reference.h"
+#include "support/photo.h"
+#include "support/temp_dir.h"
 
 namespace lumibox::render {
 namespace {
@@ -179,7 +181,7 @@ TEST_F(RendererTest, PicturesComeAndGo) {
                 0.5);
     }
   }
-  perspectives[0].color = std::make_shared<const hal::Image>(48, 64, 3);
+  perspectives[0].photo = testing::photo_of(hal::Image(48, 64, 3));
   perspectives.resize(1);
   EXPECT_EQ(draw(view_from({0, 0, -4}), perspectives, settings), hal::Image(160, 120, 3));
 }
@@ -201,8 +203,77 @@ TEST_F(RendererTest, AugmentedApertureFusesTheLivePicture) {
   };
   hal::Image middle(160, 120, 1);
   for (int y = 30; y < 90; ++y) std::fill_n(middle.at(40, y), 80, 255);
-  EXPECT_GT(psnr(fused_at(0.0), *live.color, &middle), 40.0);
-  EXPECT_LT(psnr(fused_at(-1.5), *live.color, &middle), 25.0);
+  EXPECT_GT(psnr(fused_at(0.0), *live.photo->rgb(), &middle), 40.0);
+  EXPECT_LT(psnr(fused_at(-1.5), *live.photo->rgb(), &middle), 25.0);
+}
+
+/// Every kind of view of some perspectives, by renderers that know nothing of them yet.
+std::vector<hal::Image> all_kinds(hal::OffscreenDisplay& display, const View& view,
+                                  const std::vector<Perspective>& perspectives) {
+  std::vector<hal::Image> pictures;
+  for (const Geometry geometry : {Geometry::Plane, Geometry::Mesh}) {
+    for (const Aperture aperture : {Aperture::Small, Aperture::Wide}) {
+      Settings settings;
+      settings.aperture = aperture;
+      settings.k = 6;
+      ProxyGeometry proxy({}, Estimating::AtOnce);
+      settings = proxy.fit(settings, geometry, view, perspectives);
+      Renderer renderer;
+      renderer.draw(view, perspectives, settings, display.framebuffer());
+      pictures.push_back(display.read_back());
+      pictures.push_back(render_reference(view, perspectives, settings));
+    }
+  }
+  return pictures;
+}
+
+std::vector<Perspective> stored_capture(const testing::TempDir& dir) {
+  auto perspectives =
+      test::random_capture(test::textured_ball(1.0), make_camera(80, 60), 9, 4.0, 0.3, 2);
+  for (Perspective& p : perspectives) {
+    p.file = std::to_string(p.id) + ".png";
+    testing::store_as_png(*p.photo, dir / p.file);
+  }
+  return perspectives;
+}
+
+TEST_F(RendererTest, ShowsTheSameFromDiskAsFromMemory) {
+  const testing::TempDir dir;
+  const View view = view_from({0, 0, -4});
+  const auto in_memory =
+      test::random_capture(test::textured_ball(1.0), make_camera(80, 60), 9, 4.0, 0.3, 2);
+  const auto on_disk = stored_capture(dir);
+  EXPECT_EQ(on_disk[0].photo->bytes_held(), 0U);
+  EXPECT_TRUE(all_kinds(*display_, view, on_disk) == all_kinds(*display_, view, in_memory));
+  EXPECT_EQ(on_disk[0].photo->bytes_held(), 0U);
+}
+
+// The nearest among them: what is next takes its place.
+TEST_F(RendererTest, LeavesOutPicturesThatAreLost) {
+  const testing::TempDir dir;
+  const View view = view_from({0, 0, -4});
+  const auto perspectives = stored_capture(dir);
+  const auto nearest = nearest_by_angle(perspectives, {0, 0, -4}, Eigen::Vector3d::Zero());
+  std::vector<Perspective> others = perspectives;
+  for (const std::size_t rank : {5U, 2U, 0U}) {
+    const Perspective& lost = perspectives[nearest[rank].second];
+    std::filesystem::remove(dir / lost.file);
+    std::erase_if(others, [&](const Perspective& p) { return p.id == lost.id; });
+  }
+  EXPECT_TRUE(all_kinds(*display_, view, perspectives) == all_kinds(*display_, view, others));
+  for (const Perspective& p : perspectives) std::filesystem::remove(dir / p.file);
+  for (const hal::Image& nothing : all_kinds(*display_, view, perspectives)) {
+    EXPECT_EQ(nothing, hal::Image(160, 120, 3));
+  }
+}
+
+TEST_F(RendererTest, UploadOfALostPictureDoesNothing) {
+  const testing::TempDir dir;
+  const auto perspectives = stored_capture(dir);
+  std::filesystem::remove(dir / perspectives[0].file);
+  renderer_->upload(perspectives[0]);
+  renderer_->upload(perspectives[0]);
+  EXPECT_TRUE(perspectives[0].photo->fault());
 }
 
 TEST_F(RendererTest, UploadAheadChangesNothing) {

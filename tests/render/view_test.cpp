@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "render/ray_cast.h"
+#include "support/photo.h"
 
 namespace lumibox::render {
 namespace {
@@ -22,7 +23,7 @@ Perspective blank(int id, const geometry::Pose& pose) {
   Perspective p;
   p.id = id;
   p.world_from_camera = pose;
-  p.color = std::make_shared<const hal::Image>(64, 48, 3);
+  p.photo = testing::photo_of(hal::Image(64, 48, 3));
   p.camera = std::make_shared<const geometry::Camera>(make_camera(64, 48));
   return p;
 }
@@ -166,7 +167,7 @@ std::vector<HardCase> hard_cases() {
   const View front = view_at(on_orbit(0.0));
   std::vector<Perspective> twins = {blank(0, on_orbit(0.1)), blank(1, on_orbit(0.1))};
   Perspective no_picture = blank(0, on_orbit(0.1));
-  no_picture.color.reset();
+  no_picture.photo.reset();
   Perspective nowhere = blank(0, on_orbit(0.1));
   nowhere.world_from_camera.translation.x() = std::nan("");
   return {

@@ -148,6 +148,9 @@ TEST(Box, AWalkAroundASubjectBecomesALightFieldOnTheScreen) {
   EXPECT_EQ(run.loop().mode(), ModeId::Review);
   EXPECT_GE(run.views(), 8U);
   EXPECT_GT(mean_brightness(run.screen()), 0.5 * mean_brightness(live));
+  for (const auto& perspective : run.loop().recorder().light_field().perspectives()) {
+    EXPECT_EQ(perspective.photo->bytes_held(), 0U) << "they are on disk: " << perspective.id;
+  }
 
   run.loop().finish();
   const auto capture = lightfield::load_capture(dir / "capture-0001");
@@ -266,6 +269,24 @@ TEST(Box, CaptureWithADamagedMapIsStillShown) {
   run.until(1.2);
   EXPECT_EQ(run.loop().mode(), ModeId::Review);
   EXPECT_GT(mean_brightness(run.screen()), 20.0) << "grey levels: a picture, not a black screen";
+}
+
+TEST(Box, LostPicturesAreSaidOnceAndTheOthersAreShown) {
+  const TempDir dir;
+  BoxRun run(kCapture, dir.path());
+  run.until(6.3);
+  ASSERT_GE(run.views(), 6U);
+  for (const char* picture : {"000001.jpg", "000002.jpg"}) {
+    std::filesystem::remove(dir / "capture-0001/images" / picture);
+  }
+  EXPECT_TRUE(run.loop().picture().alerts.empty()) << "nobody has looked yet";
+  run.until(6.9);
+  EXPECT_EQ(run.loop().mode(), ModeId::Review);
+  ASSERT_EQ(run.loop().picture().alerts.size(), 1U);
+  EXPECT_NE(run.loop().picture().alerts[0].find("2 of "), std::string::npos);
+  EXPECT_NE(run.loop().picture().alerts[0].find("images/000001.jpg"), std::string::npos);
+  EXPECT_GT(mean_brightness(run.screen()), 20.0) << "grey levels: a picture, not a black screen";
+  EXPECT_NO_THROW(run.loop().finish());
 }
 
 /// A file system with little room, while the object lives.
