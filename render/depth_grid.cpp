@@ -48,7 +48,7 @@ void splat(const View& view, const DepthGrid::Source& source, double cell, doubl
   std::size_t i = 0;
   for (int y = 0; y < map.camera.height(); ++y) {
     for (int x = 0; x < map.camera.width(); ++x, ++i) {
-      const float rho = map.inverse_depth[i];
+      const float rho = map.inverse_depth(i);
       const Eigen::Vector3f ray(static_cast<float>((x - from.cx) / from.fx),
                                 static_cast<float>((y - from.cy) / from.fy), 1.0F);
       const Eigen::Vector3f point = rotation * ray + rho * shift;  // times its inverse depth
@@ -61,7 +61,7 @@ void splat(const View& view, const DepthGrid::Source& source, double cell, doubl
         continue;
       }
       const auto nearness = static_cast<float>(std::pow(seen * unit, kNearer));
-      const float weight = static_cast<float>(source.weight) * map.confidence[i] * nearness;
+      const float weight = static_cast<float>(source.weight) * map.confidence(i) * nearness;
       const int left = static_cast<int>(std::floor(column));
       const int top = static_cast<int>(std::floor(row));
       const float a = column - static_cast<float>(left);

@@ -74,11 +74,26 @@ double least(const float* costs, int count) {
 
 }  // namespace
 
+DepthMap::DepthMap(const geometry::Camera& map_camera, const std::vector<float>& inverse_depths,
+                   const std::vector<float>& confidences)
+    : camera(map_camera), largest(std::max(0.0F, *std::ranges::max_element(inverse_depths))) {
+  shares.reserve(inverse_depths.size());
+  for (const float rho : inverse_depths) {
+    const float share = largest > 0.0F ? std::max(rho, 0.0F) / largest : 0.0F;
+    shares.push_back(static_cast<std::uint16_t>(std::lround(65535.0F * share)));
+  }
+  agreement.reserve(confidences.size());
+  for (const float confidence : confidences) {
+    agreement.push_back(static_cast<std::uint8_t>(std::max(1L, std::lround(255.0F * confidence))));
+  }
+}
+
 double DepthMap::along(const Eigen::Vector3d& ray) const {
   const config::CameraProfile& c = camera.profile();
-  return static_cast<double>(sample_bilinear(inverse_depth, camera.width(), camera.height(),
-                                             static_cast<float>(c.fx * ray.x() / ray.z() + c.cx),
-                                             static_cast<float>(c.fy * ray.y() / ray.z() + c.cy)));
+  const float share = sample_bilinear(shares, camera.width(), camera.height(),
+                                      static_cast<float>(c.fx * ray.x() / ray.z() + c.cx),
+                                      static_cast<float>(c.fy * ray.y() / ray.z() + c.cy));
+  return static_cast<double>(largest * (share / 65535.0F));
 }
 
 std::vector<std::pair<double, std::size_t>> nearest_by_angle(
@@ -120,17 +135,18 @@ std::optional<DepthMap> estimate_depth(const Perspective& perspective,
   const double distance = std::max((focus - perspective.center()).norm(), 1e-6);
   const CostVolume costs(picture, compared, kNearest / distance, kDepths);
   const CostVolume aggregated = costs.aggregated(picture);
-  DepthMap map{picture.camera, {}, {}};
+  std::vector<float> inverse_depths;
+  std::vector<float> confidences;
   for (int y = 0; y < picture.height(); ++y) {
     for (int x = 0; x < picture.width(); ++x) {
       const double index =
           compared.empty() ? (kDepths - 1) / kNearest : least(aggregated.at(x, y), kDepths);
       const float cost = costs.at(x, y)[std::lround(index)];
-      map.inverse_depth.push_back(static_cast<float>(costs.inverse_depth(index)));
-      map.confidence.push_back(std::min(1.0F, std::exp(-cost / kCostOfDoubt) + kLeastConfidence));
+      inverse_depths.push_back(static_cast<float>(costs.inverse_depth(index)));
+      confidences.push_back(std::min(1.0F, std::exp(-cost / kCostOfDoubt) + kLeastConfidence));
     }
   }
-  return map;
+  return DepthMap(picture.camera, inverse_depths, confidences);
 }
 
 }  // namespace lumibox::render

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -14,9 +15,25 @@ namespace lumibox::render {
 /// The scene's shape as a perspective sees it, in its camera's frame, on a grid much coarser than
 /// its picture.
 struct DepthMap {
-  geometry::Camera camera;           ///< pinhole; its pixels are the grid
-  std::vector<float> inverse_depth;  ///< along the optical axis, 1 / world units, row by row
-  std::vector<float> confidence;     ///< (0, 1]: how well the pictures agree there
+  geometry::Camera camera;              ///< pinhole; its pixels are the grid, here row by row
+  float largest = 0.0F;                 ///< inverse depth in the map
+  std::vector<std::uint16_t> shares;    ///< inverse depths, 65535 for the largest
+  std::vector<std::uint8_t> agreement;  ///< confidences, 255 for 1; never 0
+
+  /// Rounds: three bytes a sample, or some hundred maps would take more than all else does.
+  /// Precondition: one of each for every pixel of the camera, at least one.
+  DepthMap(const geometry::Camera& camera, const std::vector<float>& inverse_depths,
+           const std::vector<float>& confidences);
+
+  std::size_t size() const { return shares.size(); }
+
+  /// Along the optical axis, 1 / world units; not negative.
+  float inverse_depth(std::size_t i) const {
+    return largest * (static_cast<float>(shares[i]) / 65535.0F);
+  }
+
+  /// How well the pictures agree there, (0, 1].
+  float confidence(std::size_t i) const { return static_cast<float>(agreement[i]) / 255.0F; }
 
   /// Inverse depth that is seen along a ray in the camera's frame, in front of it.
   double along(const Eigen::Vector3d& ray) const;

@@ -12,7 +12,7 @@ namespace {
 
 using lightfield::Perspective;
 
-constexpr std::size_t kMaxMaps = 512;  // 75 MB of 640x480 pictures
+constexpr std::size_t kMaxMaps = 512;  // 30 MB of 640x480 pictures
 constexpr std::size_t kMaxJobs = 16;   // older ones belong to views long gone
 
 std::shared_ptr<const DepthMap> estimate(const std::vector<Perspective>& perspectives,

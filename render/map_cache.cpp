@@ -1,7 +1,6 @@
 #include "render/map_cache.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace lumibox::render {
 namespace {
@@ -37,12 +36,11 @@ MapCache::Slot MapCache::slot_of(const std::shared_ptr<const DepthMap>& map) {
 }
 
 void MapCache::upload(const DepthMap& map, std::size_t slot) {
-  const float largest = *std::ranges::max_element(map.inverse_depth);
-  largest_[slot] = static_cast<double>(largest);
+  largest_[slot] = static_cast<double>(map.largest);
   shares_.clear();
-  for (const float rho : map.inverse_depth) {
-    const float share = largest > 0.0F ? std::max(rho, 0.0F) / largest : 0.0F;
-    shares_.push_back(static_cast<std::uint8_t>(std::lround(255.0F * share)));
+  // 65535 is 255 times 257.
+  for (const int share : map.shares) {
+    shares_.push_back(static_cast<std::uint8_t>((share + 128) / 257));
   }
   glBindTexture(GL_TEXTURE_2D_ARRAY, texture_.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);

@@ -28,8 +28,8 @@ inline Eigen::Vector3d sample_bilinear(const hal::Image& image, const Eigen::Vec
 }
 
 /// Bilinear interpolation of values on a grid, row by row; beyond the grid its border goes on.
-inline float sample_bilinear(const std::vector<float>& values, int columns, int rows, float x,
-                             float y) {
+template <class Value>
+float sample_bilinear(const std::vector<Value>& values, int columns, int rows, float x, float y) {
   x = std::clamp(x, 0.0F, static_cast<float>(columns - 1));
   y = std::clamp(y, 0.0F, static_cast<float>(rows - 1));
   const int left = static_cast<int>(x);
@@ -39,7 +39,7 @@ inline float sample_bilinear(const std::vector<float>& values, int columns, int 
   const float a = x - static_cast<float>(left);
   const float b = y - static_cast<float>(top);
   const auto value = [&](int column, int row) {
-    return values[static_cast<std::size_t>(row * columns + column)];
+    return static_cast<float>(values[static_cast<std::size_t>(row * columns + column)]);
   };
   return (1.0F - b) * ((1.0F - a) * value(left, top) + a * value(right, top)) +
          b * ((1.0F - a) * value(left, bottom) + a * value(right, bottom));

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <thread>
 
@@ -9,6 +11,7 @@
 #include "render/depth_grid.h"
 #include "render/depth_maps.h"
 #include "render/proxy_geometry.h"
+#include "support/photo.h"
 
 namespace lumibox::render {
 namespace {
@@ -31,11 +34,9 @@ double true_inverse_depth(const geometry::Pose& world_from_camera, const Vector3
 
 /// A map of one inverse depth, seen by a small pinhole camera.
 DepthGrid::Source flat(double inverse_depth, const geometry::Pose& world_from_map) {
-  auto map = std::make_shared<DepthMap>();
-  map->camera = test::make_camera(40, 30);
-  map->inverse_depth.assign(40 * 30, static_cast<float>(inverse_depth));
-  map->confidence.assign(40 * 30, 1.0F);
-  return {map, world_from_map, 1.0};
+  const std::vector<float> flat(40 * 30, static_cast<float>(inverse_depth));
+  const std::vector<float> sure(40 * 30, 1.0F);
+  return {std::make_shared<DepthMap>(test::make_camera(40, 30), flat, sure), world_from_map, 1.0};
 }
 
 // Half a step between the depths searched is 0.03 of the distance; ten times that is a pixel that
@@ -55,11 +56,37 @@ TEST(DepthMap, IsTheDepthOfWhatThePicturesShow) {
       for (int x = 0; x < map.camera.width(); ++x, ++i) {
         const double wanted =
             true_inverse_depth(perspectives[0].world_from_camera, ray_at(map.camera, x, y));
-        errors.push_back(std::abs(static_cast<double>(map.inverse_depth[i]) - wanted) * 4.0);
+        errors.push_back(std::abs(static_cast<double>(map.inverse_depth(i)) - wanted) * 4.0);
       }
     }
     EXPECT_LT(geometry::quantile(errors, 0.5), 0.03) << distorted;
     EXPECT_LT(geometry::quantile(errors, 0.85), 0.3) << distorted;
+  }
+}
+
+// All that a recorded perspective of 640x480 may cost is 500 kB.
+TEST(DepthMap, OfAPictureOf640x480Takes60KilobytesAtMost) {
+  Perspective perspective = around_a_ball(test::make_camera(8, 6), 1)[0];
+  perspective.camera = std::make_shared<const geometry::Camera>(test::make_camera(640, 480));
+  perspective.photo = testing::photo_of(hal::Image(640, 480, 3));
+  const DepthMap map = estimate_depth(perspective, {}, kSubject).value();
+  EXPECT_EQ(map.size(), 160U * 120U);
+  EXPECT_LE(map.shares.size() * sizeof map.shares[0] + map.agreement.size(), 60'000U);
+}
+
+RC_GTEST_PROP(DepthMap, KeepsInverseDepthsToA65535thOfTheLargest, ()) {
+  std::vector<float> inverse_depths;
+  std::vector<float> confidences;
+  for (int i = 0; i < 12; ++i) {
+    inverse_depths.push_back(static_cast<float>(*rc::gen::inRange(0, 1 << 20)) * 1e-4F);
+    confidences.push_back(static_cast<float>(*rc::gen::inRange(2, 101)) * 0.01F);
+  }
+  const float largest = *std::ranges::max_element(inverse_depths);
+  const DepthMap map(test::make_camera(4, 3), inverse_depths, confidences);
+  for (std::size_t i = 0; i < 12; ++i) {
+    RC_ASSERT(std::abs(map.inverse_depth(i) - inverse_depths[i]) <= 0.51F / 65535.0F * largest);
+    RC_ASSERT(std::abs(map.confidence(i) - confidences[i]) <= 0.51F / 255.0F);
+    RC_ASSERT(map.confidence(i) > 0.0F);
   }
 }
 
@@ -68,7 +95,7 @@ TEST(DepthMap, WithoutNeighboursLiesAtTheFocus) {
   EXPECT_TRUE(depth_neighbours(perspectives, 0, kSubject).empty());
   const DepthMap map = estimate_depth(perspectives[0], {}, kSubject).value();
   const double wanted = 1.0 / perspectives[0].center().norm();
-  for (const float rho : map.inverse_depth) EXPECT_NEAR(rho, wanted, 1e-6);
+  for (std::size_t i = 0; i < map.size(); ++i) EXPECT_NEAR(map.inverse_depth(i), wanted, 1e-6);
 }
 
 TEST(DepthMap, OfALostPictureThereIsNone) {
@@ -76,9 +103,8 @@ TEST(DepthMap, OfALostPictureThereIsNone) {
   const std::vector<const Perspective*> one = {&perspectives[1]};
   const DepthMap from_one = estimate_depth(perspectives[0], one, kSubject).value();
   perspectives[2].photo->stored_in("/nowhere/2.png");
-  EXPECT_EQ(estimate_depth(perspectives[0], {&perspectives[1], &perspectives[2]}, kSubject)
-                ->inverse_depth,
-            from_one.inverse_depth)
+  EXPECT_EQ(estimate_depth(perspectives[0], {&perspectives[1], &perspectives[2]}, kSubject)->shares,
+            from_one.shares)
       << "one that is lost counts for nothing";
   EXPECT_FALSE(estimate_depth(perspectives[2], one, kSubject));
   DepthMaps maps(Estimating::AtOnce);
@@ -113,12 +139,12 @@ TEST(DepthMaps, MeanwhileGivesWhatAtOnceGives) {
   EXPECT_EQ(at_once.map_of(perspectives, 0, kSubject), wanted) << "it is kept";
   DepthMaps meanwhile(Estimating::Meanwhile);
   const auto found = wait_for(meanwhile, perspectives, nullptr);
-  EXPECT_EQ(found->inverse_depth, wanted->inverse_depth);
-  EXPECT_EQ(found->confidence, wanted->confidence);
+  EXPECT_EQ(found->shares, wanted->shares);
+  EXPECT_EQ(found->agreement, wanted->agreement);
 
   perspectives.push_back(around_a_ball(test::make_camera(48, 36), 5).back());
   const auto better = wait_for(meanwhile, perspectives, found);  // until then the older one
-  EXPECT_EQ(better->inverse_depth, at_once.map_of(perspectives, 0, kSubject)->inverse_depth);
+  EXPECT_EQ(better->shares, at_once.map_of(perspectives, 0, kSubject)->shares);
 }
 
 TEST(DepthMaps, AMapStaysWhenItsPerspectiveMoves) {

@@ -55,16 +55,15 @@ TEST(ProxyGeometry, WhatHidesTheWallIsNotPaintedOnIt) {
                                         {Eigen::Quaterniond::Identity(), Vector3d(x, 0.0, -2.0)});
   };
   const auto depths_from = [&](double x) {  // pillar at 2, wall at 4
-    auto map = std::make_shared<DepthMap>();
-    map->camera = camera;
+    std::vector<float> inverse_depths;
     for (int v = 0; v < 120; ++v) {
       for (int u = 0; u < 160; ++u) {
         const bool pillar = std::abs(x + 2.0 * ray_at(camera, u, v).x()) < 0.15;
-        map->inverse_depth.push_back(pillar ? 0.5F : 0.25F);
-        map->confidence.push_back(1.0F);
+        inverse_depths.push_back(pillar ? 0.5F : 0.25F);
       }
     }
-    return map;
+    return std::make_shared<DepthMap>(camera, inverse_depths,
+                                      std::vector<float>(inverse_depths.size(), 1.0F));
   };
   const std::vector<Perspective> both{taken_from(0, 0.5), taken_from(1, -0.6)};
   const View view{camera, {Eigen::Quaterniond::Identity(), Vector3d(0.0, 0.0, -2.0)}};
@@ -204,8 +203,8 @@ TEST(ProxyGeometry, HardViewsStayFinite) {
                 {test::make_camera(48, 36), perspectives[4].world_from_camera}, perspectives);
   for (const float rho : at_subject.shape->grid.inverse_depths()) ASSERT_TRUE(std::isfinite(rho));
   for (const auto& map : at_subject.shape->maps) {
-    for (const float rho : map ? map->inverse_depth : std::vector<float>{}) {
-      ASSERT_TRUE(std::isfinite(rho));
+    for (std::size_t i = 0; map && i < map->size(); ++i) {
+      ASSERT_TRUE(std::isfinite(map->inverse_depth(i)));
     }
   }
   const View view = view_from({0.0, 0.0, -4.0});
