@@ -33,6 +33,10 @@ std::vector<std::string> names(const std::vector<SweepCurve>& curves,
   return result;
 }
 
+bool lost_any_frame(const SweepCurve& curve) {
+  return std::ranges::any_of(curve.points, [](const auto& p) { return p.tracked_share < 1.0; });
+}
+
 double most_tracked(const SweepCurve& curve) {
   double most = 0.0;
   for (const SweepPoint& point : curve.points) most = std::max(most, point.tracked_share);
@@ -54,7 +58,7 @@ void draw_labels(Svg& svg, const Axes& axes, const SweepCurve& curve, std::strin
   };
   for (const SweepPoint& point : curve.points) {
     if (!point.error) continue;
-    const Vector2d at = axes.at(point.ms, *point.error);
+    const Vector2d at = axes.at(point.cost, *point.error);
     if (!label.empty() && (at - first).norm() > kTogether) finish();
     if (label.empty()) first = at;
     label += (label.empty() ? "" : ", ") + tick_label(point.value);
@@ -68,14 +72,14 @@ void draw_labels(Svg& svg, const Axes& axes, const SweepCurve& curve, std::strin
 void draw_curve(Svg& svg, const Axes& axes, const SweepCurve& curve, std::string_view color) {
   std::vector<Vector2d> line;
   for (const SweepPoint& point : curve.points) {
-    if (point.error) line.push_back(axes.at(point.ms, *point.error));
+    if (point.error) line.push_back(axes.at(point.cost, *point.error));
   }
   svg.polyline(line, {.stroke = color, .width = 1.4});
   const auto at_knee = knee(curve);
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     const SweepPoint& point = curve.points[i];
     if (!point.error) continue;
-    const Vector2d at = axes.at(point.ms, *point.error);
+    const Vector2d at = axes.at(point.cost, *point.error);
     svg.circle(at, 3.0, {.fill = color});
     if (point.is_default) svg.circle(at, 7.0, {.stroke = color, .width = 1.6});
     if (i == at_knee) {
@@ -88,21 +92,21 @@ void draw_curve(Svg& svg, const Axes& axes, const SweepCurve& curve, std::string
 /// The same for all diagrams of what costs the same kind of time, so that a large effect looks
 /// larger than a small one.
 std::pair<Axis, Axis> common_axes(const std::vector<SweepCurve>& curves, const SweepCurve& like) {
-  Range ms{0.0, 1.0};
+  Range cost{0.0, 1.0};
   Range error;
   for (const SweepCurve& curve : curves) {
     if (curve.costs != like.costs) continue;
     for (const SweepPoint& point : curve.points) {
       if (!point.error) continue;
-      ms.include(1.15 * point.ms);
+      cost.include(1.15 * point.cost);
       if (*point.error > 0.0) error.include(*point.error);
     }
   }
   if (error.empty()) error = {0.1, 1.0};
-  return {{like.costs, ms}, {like.buys, {0.7 * error.low, 1.5 * error.high}, Scale::Logarithmic}};
+  return {{like.costs, cost}, {like.buys, {0.7 * error.low, 1.5 * error.high}, Scale::Logarithmic}};
 }
 
-void draw_legend(Svg& svg, const std::vector<std::string>& footages, Vector2d at) {
+void draw_legend(Svg& svg, const std::vector<std::string>& footages, bool any_lost, Vector2d at) {
   const auto text = [&](const std::string& name) {
     svg.text(at + Vector2d(26.0, 4.0), name, {.size = 11});
     at.x() += 26.0 + 6.8 * static_cast<double>(name.size()) + 18.0;
@@ -114,7 +118,8 @@ void draw_legend(Svg& svg, const std::vector<std::string>& footages, Vector2d at
   svg.circle(at + Vector2d(10.0, 0.0), 7.0, {.stroke = "black", .width = 1.6});
   text("default");
   svg.rect(at - Vector2d(-2.0, 8.0), {16.0, 16.0}, {.stroke = "#666", .dashes = "3 2"});
-  text("knee: cheapest within 10 % of the least error, with 95 % of the frames tracked");
+  text(std::string("knee: cheapest within 10 % of the least error") +
+       (any_lost ? ", with 95 % of the frames tracked" : ""));
 }
 
 }  // namespace
@@ -132,7 +137,7 @@ std::optional<std::size_t> knee(const SweepCurve& curve) {
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
     const SweepPoint& point = curve.points[i];
     if (!counts(point) || *point.error > kNearBest * errors.low) continue;
-    if (!best || point.ms < curve.points[*best].ms) best = i;
+    if (!best || point.cost < curve.points[*best].cost) best = i;
   }
   return best;
 }
@@ -144,7 +149,7 @@ Svg draw_sweep(const std::string& title, const std::vector<SweepCurve>& curves) 
   Svg svg(static_cast<double>(kColumns) * (kLeft + kWidth) + 25.0,
           kTop + static_cast<double>(rows) * kRowHeight);
   svg.text({20.0, 30.0}, title, {.size = 18, .bold = true});
-  draw_legend(svg, footages, {20.0, 56.0});
+  draw_legend(svg, footages, std::ranges::any_of(curves, lost_any_frame), {20.0, 56.0});
   for (std::size_t i = 0; i < settings.size(); ++i) {
     const auto first = std::ranges::find(curves, settings[i], &SweepCurve::setting);
     const auto [x, y] = common_axes(curves, *first);

@@ -12,7 +12,7 @@ namespace lumibox::bench {
 struct SweepPoint {
   double value = 0.0;
   bool is_default = false;
-  double ms = 0.0;              ///< what it costs
+  double cost = 0.0;            ///< e.g. milliseconds
   std::optional<double> error;  ///< none: no truth, or too little tracked to compare
   double tracked_share = 1.0;
 };
@@ -22,7 +22,7 @@ struct SweepCurve {
   std::string setting;
   std::string footage;
   std::vector<SweepPoint> points;
-  std::string costs = "ms";        ///< label of the times; diagrams of one label share their axes
+  std::string costs = "ms";        ///< label of the costs; diagrams of one label share their axes
   std::string buys = "error [%]";  ///< label of the errors
 };
 
@@ -30,7 +30,7 @@ struct SweepCurve {
 /// accurate than the most accurate of these, the cheapest. None without errors.
 std::optional<std::size_t> knee(const SweepCurve& curve);
 
-/// A page with one diagram per setting: error over milliseconds, a line per footage, the default
+/// A page with one diagram per setting: error over cost, a line per footage, the default
 /// and the knee marked.
 Svg draw_sweep(const std::string& title, const std::vector<SweepCurve>& curves);
 

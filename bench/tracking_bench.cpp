@@ -20,21 +20,6 @@ constexpr double kOrbTarget = 0.6;     // of ORB's time that a frame of the trac
 constexpr double kMedianTarget = 5.0;  // ms of the tracker alone
 constexpr double kP95Target = 10.0;    // ms
 
-/// Times of single frames.
-struct Samples {
-  std::vector<double> wall_ms;
-  std::vector<double> cpu_ms;
-
-  void add(const Stopwatch& watch) {
-    cpu_ms.push_back(watch.cpu_ms());
-    wall_ms.push_back(watch.wall_ms());
-  }
-};
-
-FrameTimes summary(const std::vector<double>& ms) {
-  return {geometry::quantile(ms, 0.5), geometry::quantile(ms, 0.95), geometry::quantile(ms, 1.0)};
-}
-
 void await_mapper(const tracking::Tracker& tracker) {
   while (tracker.mapping()) std::this_thread::sleep_for(std::chrono::microseconds(200));
 }
@@ -44,10 +29,6 @@ std::optional<Accuracy> accuracy(const std::vector<hal::StampedPose>& trajectory
   const auto error = compare_trajectories(trajectory, truth);
   if (!error || !error->rmse_percent) return std::nullopt;
   return Accuracy{*error->rmse_percent, error->rotation_rmse_deg};
-}
-
-nlohmann::json to_json(const FrameTimes& times) {
-  return {{"median", times.median}, {"p95", times.p95}, {"max", times.max}};
 }
 
 nlohmann::json to_json(const std::optional<Accuracy>& accuracy) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/footage.h"
+#include "bench/frame_times.h"
 #include "config/config.h"
 
 namespace lumibox::bench {
@@ -32,13 +33,6 @@ struct Variation {
 /// `options` states, in ascending order of the value; all else as in `options`. `width` is that of
 /// the pictures, whose size is a setting too.
 std::vector<Variation> tracking_variations(const config::Tracking& options, int width);
-
-/// Time of one frame over all frames, in milliseconds.
-struct FrameTimes {
-  double median = 0.0;
-  double p95 = 0.0;
-  double max = 0.0;
-};
 
 /// Accuracy against the truth; percentages are of the extent of the true positions.
 struct Accuracy {

@@ -13,10 +13,9 @@ constexpr std::string_view kHeader =
     "precision highp sampler2D;\n"
     "precision highp sampler2DArray;\n";
 
-Shader compile(GLenum kind, std::string_view file, std::string_view prelude) {
+Shader compile(GLenum kind, const ShaderText& from) {
   Shader shader(glCreateShader(kind));
-  std::string text(kHeader);
-  text.append(prelude).append(shader_source(file));
+  const std::string text = std::string(kHeader) + from.text;
   const char* source = text.c_str();
   glShaderSource(shader.name(), 1, &source, nullptr);
   glCompileShader(shader.name());
@@ -27,8 +26,7 @@ Shader compile(GLenum kind, std::string_view file, std::string_view prelude) {
     GLsizei length = 0;
     glGetShaderInfoLog(shader.name(), static_cast<GLsizei>(log.size()), &length, log.data());
     log.resize(static_cast<std::size_t>(length));
-    throw config::InputError("OpenGL ES 3 cannot compile the shader " + std::string(file) + ": " +
-                             log);
+    throw config::InputError("OpenGL ES 3 cannot compile the shader " + from.name + ": " + log);
   }
   return shader;
 }
@@ -76,16 +74,22 @@ Texture make_texture(GLenum target) {
 
 Program make_program(std::string_view vertex_file, std::string_view fragment_file,
                      std::string_view prelude) {
-  const Shader vertex = compile(GL_VERTEX_SHADER, vertex_file, {});
-  const Shader fragment = compile(GL_FRAGMENT_SHADER, fragment_file, prelude);
+  return make_program(
+      {std::string(vertex_file), std::string(shader_source(vertex_file))},
+      {std::string(fragment_file), std::string(prelude).append(shader_source(fragment_file))});
+}
+
+Program make_program(const ShaderText& vertex, const ShaderText& fragment) {
+  const Shader vertex_shader = compile(GL_VERTEX_SHADER, vertex);
+  const Shader fragment_shader = compile(GL_FRAGMENT_SHADER, fragment);
   Program program(glCreateProgram());
-  glAttachShader(program.name(), vertex.name());
-  glAttachShader(program.name(), fragment.name());
+  glAttachShader(program.name(), vertex_shader.name());
+  glAttachShader(program.name(), fragment_shader.name());
   glLinkProgram(program.name());
   GLint done = 0;
   glGetProgramiv(program.name(), GL_LINK_STATUS, &done);
   if (done == 0) {
-    throw config::InputError("OpenGL ES 3 cannot link the shader " + std::string(fragment_file));
+    throw config::InputError("OpenGL ES 3 cannot link the shader " + fragment.name);
   }
   return program;
 }

@@ -52,6 +52,15 @@ Texture make_texture(GLenum target);
 Program make_program(std::string_view vertex_file, std::string_view fragment_file,
                      std::string_view prelude = {});
 
+/// A shader after the lines that all share (version, precision), and what the log calls it.
+struct ShaderText {
+  std::string name;
+  std::string text;
+};
+
+/// The same of shaders that are no files.
+Program make_program(const ShaderText& vertex, const ShaderText& fragment);
+
 GLint uniform(const Program& program, const char* name);
 
 /// Binds a framebuffer and sets the state that everything here draws with: no depth, no culling,

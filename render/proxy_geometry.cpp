@@ -12,8 +12,7 @@ namespace {
 
 using lightfield::Perspective;
 
-constexpr std::size_t kMapsOfView = 4;      // more blur the shape
-constexpr std::size_t kPicturesOfView = 8;  // on a shape; the far ones hardly count
+constexpr std::size_t kMapsOfView = 4;  // more blur the shape
 constexpr std::size_t kMinPoints = 20;
 constexpr double kStray = 0.02;  // share of points that may be wrong, at either end
 

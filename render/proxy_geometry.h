@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,6 +21,9 @@ enum class Geometry {
 
 /// Of "plane", "focal" and "mesh".
 Geometry geometry_named(const std::string& name);
+
+/// Most pictures that are blended on a shape: the far ones hardly count.
+inline constexpr std::size_t kPicturesOfView = 8;
 
 /// Makes settings fit a view, with what is known of the scene.
 class ProxyGeometry {

@@ -380,36 +380,55 @@ void add_bench(CLI::App& app) {
   const auto options = std::make_shared<BenchOptions>();
   CLI::App* command = add_command(
       app, "bench",
-      "What accuracy costs in time, one setting varied at a time; or a frame of each simulated "
-      "scene. JSON lines, and of tracking a plot.",
+      "What accuracy costs in time, of the tracker or the renderer, one setting varied at a time; "
+      "or "
+      "a frame of each simulated scene. JSON lines and, but for the simulation, a plot.",
       "lumibox bench tracking --out out/bench --sequence walk/", options, run_bench);
   command->add_option("WHAT", options->what, "what is measured")
-      ->check(CLI::IsMember({"tracking", "simulation"}))
+      ->check(CLI::IsMember({"tracking", "rendering", "simulation"}))
       ->capture_default_str();
-  command
-      ->add_option("--out", options->out,
-                   "folder for WHAT.jsonl and, of tracking, a plot, tracking.svg")
+  command->add_option("--out", options->out, "folder for WHAT.jsonl and the plot WHAT.svg")
       ->type_name("DIR")
       ->required();
   command
       ->add_option("--sequence", options->sequences,
-                   "a recording to measure besides the simulated toy; may be repeated")
+                   "tracking: a recording to measure besides the simulated toy; may be repeated")
       ->type_name("SEQ")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--scene", options->scenes,
+                   "rendering: a scene file in place of the simulated toy; may be repeated")
+      ->type_name("SCENE.toml")
       ->allow_extra_args(false);
   command
       ->add_option_function<std::string>(
           "--random", [options](const std::string& text) { options->random = parse_seeds(text); },
           "scenes drawn at random besides; table and plot have the medians over them")
       ->type_name("FIRST-LAST");
-  command->add_option("--frames", options->frames, "how many of each recording or scene, at most")
+  command
+      ->add_option("--frames", options->frames,
+                   "tracking, simulation: how many of each recording or scene, at most")
       ->type_name("N")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{100000}))
       ->capture_default_str();
   command
-      ->add_option("--runs", options->runs,
-                   "of each value, each with another seed; table and plot have the medians")
+      ->add_option(
+          "--runs", options->runs,
+          "tracking: of each value, each with another seed; table and plot have the medians")
       ->type_name("N")
       ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  command
+      ->add_option("--views", options->views,
+                   "rendering: of each scene, at most, between the recorded ones")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command
+      ->add_option("--perspectives", options->perspectives,
+                   "rendering: around the subject, for the memory; for the speed, at most 300")
+      ->type_name("N")
+      ->check(CLI::Range(1, 10000))
       ->capture_default_str();
 }
 

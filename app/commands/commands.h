@@ -110,12 +110,15 @@ struct SeedRange {
 
 struct BenchOptions {
   config::Sources sources;
-  std::string what = "tracking";  ///< or "simulation"
+  std::string what = "tracking";  ///< or "rendering", "simulation"
   std::filesystem::path out;
   std::vector<std::filesystem::path> sequences;
-  std::optional<SeedRange> random;  ///< scenes drawn at random, judged together
-  std::int64_t frames = 200;        ///< of each recording or scene, at most
-  int runs = 1;                     ///< of each variation, each with a seed of its own
+  std::vector<std::filesystem::path> scenes;  ///< to be rendered; empty: the toy
+  std::optional<SeedRange> random;            ///< scenes drawn at random, judged together
+  std::int64_t frames = 200;                  ///< of each recording or scene, at most
+  int runs = 1;                               ///< of each variation, each with a seed of its own
+  std::size_t views = 12;                     ///< that are rendered of each scene, at most
+  std::size_t perspectives = 420;             ///< around the subject, of which memory is measured
 };
 void run_bench(const BenchOptions& options);
 

@@ -13,6 +13,7 @@
 #include "hal/image_io.h"
 #include "support/other_process.h"
 #include "support/recording.h"
+#include "support/small_scene.h"
 #include "support/source_file.h"
 #include "support/temp_dir.h"
 
@@ -108,7 +109,8 @@ TEST(CommandLine, WrongUseExitsWithTwo) {
                                 "bench tracking --out o --random 8",
                                 "bench tracking --out o --random 8-1",
                                 "bench tracking --out o --random 1-8x",
-                                "bench tracking --out o --runs 0"}) {
+                                "bench tracking --out o --runs 0",
+                                "bench rendering --out o --views 0"}) {
     const Outcome outcome = lumibox(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments;
     EXPECT_FALSE(outcome.err.empty()) << arguments;
@@ -121,6 +123,8 @@ TEST(CommandLine, MissingFilesAreNamed) {
                    HasSubstr("/nowhere/scene.toml"));
   EXPECT_COMPLAINT(lumibox("bench tracking --out /tmp --sequence /nowhere/walk"),
                    HasSubstr("/nowhere/walk"));
+  EXPECT_COMPLAINT(lumibox("bench rendering --out /tmp --scene /nowhere/scene.toml"),
+                   HasSubstr("/nowhere/scene.toml"));
   EXPECT_COMPLAINT(lumibox("evaluate /nowhere/capture"), HasSubstr("/nowhere/capture"));
   EXPECT_COMPLAINT(lumibox("import /nowhere/transforms.json /nowhere/capture"),
                    HasSubstr("/nowhere/transforms.json"));
@@ -155,9 +159,9 @@ TEST(CommandLine, OffersOnlyWhatItHas) {
   EXPECT_EQ(geometry.status, 2);
   EXPECT_THAT(geometry.err,
               AllOf(HasSubstr("--geometry"), HasSubstr("cube not in {plane,focal,mesh}")));
-  const Outcome bench = lumibox("bench rendering --out o");
+  const Outcome bench = lumibox("bench cooking --out o");
   EXPECT_EQ(bench.status, 2);
-  EXPECT_THAT(bench.err, HasSubstr("rendering not in {tracking,simulation}"));
+  EXPECT_THAT(bench.err, HasSubstr("cooking not in {tracking,rendering,simulation}"));
   const Outcome format = lumibox("export c --format web --out o");
   EXPECT_EQ(format.status, 2);
   EXPECT_THAT(format.err, AllOf(HasSubstr("--format"), HasSubstr("web not in {")));
@@ -442,6 +446,22 @@ TEST(CommandLine, BenchTriesItsPlaceBeforeTheWork) {
   dir.write("file", "in the way");
   EXPECT_COMPLAINT(lumibox("bench tracking --out " + (dir / "file").string()),
                    HasSubstr((dir / "file").string()));
+}
+
+TEST(CommandLine, BenchOfTheRendererWritesMeasurementsAndAPlot) {
+  const TempDir dir;
+  const auto scene = dir.write("ball.toml", testing::kSmallScene);
+  const Outcome outcome = lumibox("bench rendering --views 1 --perspectives 6 --out " +
+                                  (dir / "out").string() + " --scene " + scene.string());
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("naive quads / plane-small"), HasSubstr("default"),
+                                 HasSubstr("knee"), HasSubstr("ball: on the subject")));
+  const std::string lines = read_text(dir / "out" / "rendering.jsonl");
+  for (const char* what : {"quality", "speed", "ratio", "memory"}) {
+    EXPECT_THAT(lines, HasSubstr(std::string("\"what\":\"rendering_") + what + "\"")) << what;
+  }
+  EXPECT_THAT(read_text(dir / "out" / "rendering.svg"),
+              AllOf(HasSubstr("</svg>"), HasSubstr(">ball<"), HasSubstr("mesh: threshold")));
 }
 
 TEST(CommandLine, AnErrorWithOneResultDoesNotCostTheOthers) {

@@ -10,7 +10,7 @@
 namespace lumibox::test {
 
 /// A test that draws; skipped where there is no EGL to draw with.
-class GlTest : public testing::Test {
+class GlTest : public ::testing::Test {
  protected:
   /// A display of this size, its context current; null, and the test skipped, if there is none.
   static std::unique_ptr<hal::OffscreenDisplay> open_display(int width, int height) {
