@@ -73,7 +73,7 @@ TEST_F(RenderingBench, QualityLinesHaveTheFieldsPromised) {
   std::map<std::string, std::map<double, nlohmann::json>> by_threshold;
   measure_quality(scene_, "small", {}, 2, [&](const auto& variation, const auto& result) {
     const nlohmann::json json = to_json("small", variation, result);
-    EXPECT_EQ(fields(json),
+    ASSERT_EQ(fields(json),
               (std::set<std::string>{"what", "scene", "method", "setting", "value", "default",
                                      "perspectives", "views", "psnr_subject", "ssim_subject", "ms",
                                      "cpu_ms"}));
@@ -112,7 +112,7 @@ TEST_F(RenderingBench, SpeedLinesHaveTheFieldsPromised) {
   for (const SpeedResult& result : run.results) {
     methods.insert(result.method);
     const nlohmann::json json = to_json("small", run, result);
-    EXPECT_EQ(fields(json),
+    ASSERT_EQ(fields(json),
               (std::set<std::string>{"what", "scene", "method", "k", "perspectives", "width",
                                      "height", "frames", "rounds", "ms", "cpu_ms", "fit_ms"}));
     EXPECT_EQ(json["what"], "rendering_speed");
@@ -126,7 +126,7 @@ TEST_F(RenderingBench, SpeedLinesHaveTheFieldsPromised) {
     EXPECT_LE(json["fit_ms"]["max"], json["ms"]["max"]) << "a part of it";
   }
   EXPECT_EQ(methods, (std::set<std::string>{"plane-small", "plane-wide", "mesh", "naive-quads"}));
-  EXPECT_EQ(fields(ratios_to_json("small", run)),
+  ASSERT_EQ(fields(ratios_to_json("small", run)),
             (std::set<std::string>{"what", "scene", "naive_over_small", "naive_over_small_cpu",
                                    "target"}));
 }
@@ -142,7 +142,7 @@ TEST(RenderingSpeed, RatiosAreOfTheMedians) {
 
 TEST_F(RenderingBench, MemoryLineHasTheFieldsPromised) {
   const auto json = to_json("small", measure_memory(*scene_, {}, 5));
-  EXPECT_EQ(fields(json),
+  ASSERT_EQ(fields(json),
             (std::set<std::string>{"what", "scene", "perspectives", "width", "height", "held_mb",
                                    "drawn_mb", "mesh_mb", "mesh_mb_per_perspective", "upload_ms"}));
   EXPECT_EQ(json["what"], "rendering_memory");
