@@ -29,7 +29,8 @@ Loop::Loop(Devices& devices, const config::Config& config, std::filesystem::path
       modes_(session_, camera_),
       gestures_(config.controls.long_press_s),
       metronome_(*devices.clock, config.loop.rate_hz),
-      screen_(*devices.display, camera_, threading.estimating) {
+      screen_(*devices.display, camera_, threading.estimating),
+      quality_(config.render, config.quality, threading.estimating) {
   if (saved) {
     resume(std::move(*saved));
   }
@@ -70,6 +71,7 @@ void Loop::tick() {
     record(moment);
   }
   recorder_.keep_map(moment);
+  session_.quality = quality_.watch(recorder_.light_field());
   show(modes_.draw(moment));
   ++statistics_.ticks;
 }

@@ -73,6 +73,7 @@ class Loop {
   Gestures gestures_;
   Metronome metronome_;
   Screen screen_;
+  render::LiveQuality quality_;
   Picture picture_;
   bool exposure_held_ = false;
   LoopStatistics statistics_;

@@ -6,6 +6,7 @@
 
 #include "geometry/pose.h"
 #include "lightfield/perspective.h"
+#include "render/overlay.h"
 #include "render/proxy_geometry.h"
 
 namespace lumibox::app {
@@ -17,22 +18,18 @@ struct LightFieldPicture {
   render::Geometry geometry = render::Geometry::Plane;
 };
 
-/// The coverage map of thesis 2.3.
-struct CoveragePicture {
-  lightfield::Sphere sphere;
-  std::vector<Eigen::Vector3d> recorded;   ///< centres in world
-  std::optional<Eigen::Vector3d> current;  ///< the camera's centre in world
-};
-
 /// What a mode wants on the screen, as plain data: modes know nothing of GL, and what they show can
 /// be tested without it.
 struct Picture {
   /// From where the light field and the coverage map are seen; without it neither is drawn.
   std::optional<geometry::Pose> world_from_view;
   std::optional<LightFieldPicture> light_field;  ///< in place of the camera's own picture
-  std::optional<CoveragePicture> coverage;
+  std::optional<render::Coverage> coverage;
+  /// Where on the screen the box should be moved to, right and down; not zero.
+  std::optional<Eigen::Vector2d> way;
   bool reticle = false;
   std::string title;                ///< where one is: mode and numbers
+  std::string details;              ///< more numbers, below the title
   std::string advice;               ///< what the person should do now
   std::vector<std::string> alerts;  ///< what is wrong
 };

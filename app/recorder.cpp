@@ -127,12 +127,15 @@ void Recorder::open_store() {
 
 bool Recorder::wipe_nearest(const Eigen::Vector3d& center) {
   const std::optional<int> id = light_field_.nearest(center);
-  if (!id) {
+  return id && wipe(*id);
+}
+
+bool Recorder::wipe(int id) {
+  if (!light_field_.wipe(id)) {
     return false;
   }
-  light_field_.wipe(*id);
   if (store_) {
-    store_->remove(*id);
+    store_->remove(id);
   }
   return true;
 }

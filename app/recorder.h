@@ -50,6 +50,9 @@ class Recorder {
 
   /// Removes the perspective nearest to `center` by penalty; false if there is none.
   bool wipe_nearest(const Eigen::Vector3d& center);
+
+  /// Removes a perspective; false if there is no such id.
+  bool wipe(int id);
   bool undo_wipe();
 
   /// Moves what the map has moved by more than `tolerance`, a share of the distance to the subject.

@@ -24,8 +24,10 @@ void Screen::draw(const Picture& picture, const hal::Frame& frame) {
   draw_backdrop(picture, frame, view);
   const unsigned framebuffer = display_.framebuffer();
   if (picture.coverage) {
-    const CoveragePicture& coverage = *picture.coverage;
-    overlay_.draw_coverage(coverage.sphere, coverage.recorded, coverage.current, view, framebuffer);
+    overlay_.draw_coverage(*picture.coverage, view, framebuffer);
+  }
+  if (picture.way) {
+    overlay_.draw_arrow(*picture.way, display_.width(), display_.height(), framebuffer);
   }
   if (picture.reticle) {
     overlay_.draw_reticle(display_.width(), display_.height(), framebuffer);
@@ -66,13 +68,15 @@ std::vector<render::Text> text_of(const Picture& picture, int width, int height)
   std::vector<render::Text> lines;
   float baseline = margin + size;
   lines.push_back({picture.title, margin, baseline, size, kWhite});
-  const float alert_size = 0.8F * size;
-  for (const std::string& alert : picture.alerts) {
-    for (const std::string& line : wrap(alert, alert_size)) {
+  const float small_size = 0.8F * size;
+  const auto add_below = [&](const std::string& text, const render::Color& color) {
+    for (const std::string& line : wrap(text, small_size)) {
       baseline += step;
-      lines.push_back({line, margin, baseline, alert_size, kRed});
+      lines.push_back({line, margin, baseline, small_size, color});
     }
-  }
+  };
+  if (!picture.details.empty()) add_below(picture.details, kWhite);
+  for (const std::string& alert : picture.alerts) add_below(alert, kRed);
   if (picture.advice.empty()) return lines;
   const std::vector<std::string> advice = wrap(picture.advice, size);
   baseline = bottom - margin - step * static_cast<float>(advice.size() - 1);

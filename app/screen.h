@@ -43,8 +43,9 @@ class Screen {
 /// possible, in the middle of a picture of the given size.
 geometry::Camera fitted_camera(const geometry::Camera& camera, int width, int height);
 
-/// What a picture says, on a display of the given size: the title and below it the alerts, the
-/// advice at the bottom, each wrapped to the width; only the title is always one line.
+/// What a picture says, on a display of the given size: the title and below it the details
+/// and the alerts, the advice at the bottom, each wrapped to the width; only the title is always
+/// one line.
 std::vector<render::Text> text_of(const Picture& picture, int width, int height);
 
 /// The text in lines of at most `letters` letters, broken between words, or within one that is

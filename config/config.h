@@ -41,6 +41,7 @@ struct Capture {
   double moved_share = 0.002;  ///< correction of the map below which a recorded pose is left alone,
                                ///< as a share of the distance to the subject
   double map_interval_s = 5.0;      ///< between two times that the map is kept with the capture
+  double widest_gap_deg = 60.0;     ///< between recorded directions, to be filled
   std::string folder = "captures";  ///< where `run` keeps its captures
 };
 
@@ -55,6 +56,12 @@ struct Render {
   double feather_px = 48.0;            ///< width of the faded border (thesis 3)
   double small_aperture_alpha = 0.4;   ///< alpha of the nearer half (thesis 3.2)
   double small_aperture_stop = 0.004;  ///< transmittance at which a pixel is done
+};
+
+struct Quality {
+  double disagreement_sigmas = 5.0;  ///< beyond the usual, from which a picture disagrees
+  double least_shift_deg = 0.4;      ///< that counts as disagreement, however little is usual
+  double least_difference = 12.0;    ///< grey levels; likewise
 };
 
 struct Aperture {
@@ -90,6 +97,7 @@ struct Config {
   Tracking tracking;
   Capture capture;
   Render render;
+  Quality quality;
   Aperture aperture;
   Calibration calibration;
   Controls controls;

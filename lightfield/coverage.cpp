@@ -1,12 +1,129 @@
 #include "lightfield/coverage.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
 namespace lumibox::lightfield {
+namespace {
+
+constexpr std::size_t kDirections = 16384;
+/// Between neighbouring directions, radians: the side of a square of their share of the sphere.
+const double kSpacing = std::sqrt(4.0 * std::numbers::pi / static_cast<double>(kDirections));
+
+/// The Fibonacci lattice (Swinbank and Purser, "Fibonacci grids", 2006): all share the sphere
+/// evenly.
+std::vector<Eigen::Vector3d> fibonacci_lattice(std::size_t count) {
+  std::vector<Eigen::Vector3d> directions;
+  directions.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double z = 1.0 - (2.0 * static_cast<double>(i) + 1.0) / static_cast<double>(count);
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / std::numbers::phi;
+    const double across = std::sqrt(1.0 - z * z);
+    directions.emplace_back(across * std::cos(angle), across * std::sin(angle), z);
+  }
+  return directions;
+}
+
+float cosine(double angle) {
+  return static_cast<float>(std::cos(angle));
+}
+
+/// Pictures that a hole of so many directions needs: its share of the sphere over that of a cap.
+int caps_of(std::size_t directions, double threshold) {
+  const double share = static_cast<double>(directions) / static_cast<double>(kDirections);
+  const double cap = 0.5 * (1.0 - std::cos(threshold));
+  return static_cast<int>(std::min(std::ceil(share / cap), 1e9));
+}
+
+}  // namespace
 
 std::optional<Eigen::Vector3d> dot_on_sphere(const Sphere& sphere, const Eigen::Vector3d& center) {
   const Eigen::Vector3d outward = center - sphere.center;
   const double distance = outward.norm();
   if (!(distance > 0.0)) return std::nullopt;
   return sphere.center + (sphere.radius / distance) * outward;
+}
+
+double expected_ghosting(double focal_px, double threshold, double radius_share) {
+  if (radius_share >= 1.0) return std::numeric_limits<double>::infinity();
+  return focal_px * threshold * radius_share / (1.0 - radius_share * radius_share);
+}
+
+HoleFinder::HoleFinder() : even_(fibonacci_lattice(kDirections)), even_columns_(3, kDirections) {
+  for (std::size_t i = 0; i < kDirections; ++i) {
+    even_columns_.col(static_cast<Eigen::Index>(i)) = even_[i].cast<float>();
+  }
+}
+
+void HoleFinder::see(const std::vector<Eigen::Vector3d>& directions) {
+  const bool grown = nearest_.size() > 0 && seen_.size() <= directions.size() &&
+                     std::equal(seen_.begin(), seen_.end(), directions.begin());
+  const std::size_t first = grown ? seen_.size() : 0;
+  if (!grown) nearest_ = Eigen::ArrayXf::Constant(kDirections, -2.0F);  // farther than any
+  for (std::size_t i = first; i < directions.size(); ++i) {
+    const double length = directions[i].norm();
+    if (!(length > 0.0) || !std::isfinite(length)) continue;
+    const Eigen::Vector3f unit = (directions[i] / length).cast<float>();
+    nearest_ = nearest_.max((unit.transpose() * even_columns_).transpose().array());
+  }
+  seen_ = directions;
+}
+
+/// Of the region, what is farther from all recorded directions than `nearest`, a cosine.
+std::vector<std::size_t> HoleFinder::region_farther_than(float nearest, double threshold,
+                                                         double widest_gap) const {
+  const double reach = std::min(0.5 * widest_gap, std::numbers::pi);
+  const float at_reach = cosine(reach);
+  const float just_beyond = cosine(std::min(reach + 1.5 * kSpacing, std::numbers::pi));
+  // Middles of empty caps. Those just beyond reach tell where all of them begin.
+  std::vector<Eigen::Vector3f> edge;
+  for (Eigen::Index i = 0; i < nearest_.size(); ++i) {
+    if (nearest_[i] < at_reach && nearest_[i] >= just_beyond) {
+      edge.emplace_back(even_columns_.col(i));
+    }
+  }
+  const double half_gate = 0.5 * std::max(threshold, kFinest);
+  const float in_empty_cap = cosine(std::max(0.0, reach - half_gate));
+  std::vector<std::size_t> region;
+  for (Eigen::Index i = 0; i < nearest_.size(); ++i) {
+    if (nearest_[i] < at_reach || nearest_[i] >= nearest) continue;
+    const Eigen::Vector3f direction = even_columns_.col(i);
+    const bool outside = std::ranges::any_of(
+        edge, [&](const Eigen::Vector3f& middle) { return middle.dot(direction) > in_empty_cap; });
+    if (!outside) region.push_back(static_cast<std::size_t>(i));
+  }
+  return region;
+}
+
+std::vector<std::size_t> HoleFinder::region(const std::vector<Eigen::Vector3d>& directions,
+                                            double threshold, double widest_gap) {
+  see(directions);
+  return region_farther_than(2.0F, threshold, widest_gap);
+}
+
+Holes HoleFinder::find_within(const std::vector<std::size_t>& within,
+                              const std::vector<Eigen::Vector3d>& directions, double threshold) {
+  see(directions);
+  const float covered = cosine(std::max(threshold, kFinest));
+  std::size_t uncovered = 0;
+  std::optional<std::size_t> farthest;
+  for (const std::size_t i : within) {
+    const float nearest = nearest_[static_cast<Eigen::Index>(i)];
+    if (nearest >= covered) continue;
+    ++uncovered;
+    if (!farthest || nearest < nearest_[static_cast<Eigen::Index>(*farthest)]) farthest = i;
+  }
+  if (!farthest) return {};
+  return {caps_of(uncovered, threshold), even_[*farthest]};
+}
+
+Holes HoleFinder::find(const std::vector<Eigen::Vector3d>& directions, double threshold,
+                       double widest_gap) {
+  see(directions);
+  const float covered = cosine(std::max(threshold, kFinest));
+  return find_within(region_farther_than(covered, threshold, widest_gap), directions, threshold);
 }
 
 }  // namespace lumibox::lightfield

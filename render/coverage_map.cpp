@@ -4,7 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/rotation.h"
 #include "lightfield/coverage.h"
+#include "render/arrows.h"
+#include "render/quality_color.h"
 
 namespace lumibox::render {
 namespace {
@@ -14,6 +17,8 @@ constexpr int kMeridians = 12;
 constexpr int kParallels = 7;
 constexpr int kPieces = 96;  ///< straight pieces of a circle
 constexpr float kFarOpacity = 0.22F;
+
+constexpr int kArrowPieces = 24;
 
 const Color kWhite{1.0F, 1.0F, 1.0F, 1.0F};
 const Color kRed{1.0F, 0.16F, 0.12F, 1.0F};
@@ -138,19 +143,42 @@ void draw_dot(Strokes& strokes, const Projection& projection, const lightfield::
   strokes.disc(point->position, radius * scale, core);
 }
 
+/// A ring around the dot: a difference in shape, where colours alone might not be told apart.
+void draw_ring(Strokes& strokes, const Projection& projection, const Coverage::Dot& dot,
+               const lightfield::Sphere& sphere) {
+  draw_dot(strokes, projection, sphere, dot.center, 7.2F, kShadow);
+  draw_dot(strokes, projection, sphere, dot.center, 6.6F, color_of_quality(0.0));
+}
+
+/// Along the great circle from the dot of the current centre to the hole.
+void draw_way(Strokes& strokes, const Projection& projection, const Coverage& coverage) {
+  const Eigen::Vector3d from = (*coverage.current - coverage.sphere.center).normalized();
+  if (!from.allFinite() || !coverage.hole->allFinite()) return;
+  std::vector<StrokePoint> points;
+  for (int i = 0; i <= kArrowPieces; ++i) {
+    const auto point =
+        projection.project(geometry::slerp(from, *coverage.hole, i / double{kArrowPieces}));
+    if (!point) return;
+    points.push_back({point->position, std::max(point->opacity, 0.4F)});
+  }
+  draw_arrow(strokes, points, 9.0F * projection.scale(), projection.scale());
+}
+
 }  // namespace
 
-Strokes coverage_map(const lightfield::Sphere& sphere, const std::vector<Eigen::Vector3d>& recorded,
-                     const std::optional<Eigen::Vector3d>& current, const View& view) {
+Strokes coverage_map(const Coverage& coverage, const View& view) {
+  const lightfield::Sphere& sphere = coverage.sphere;
   Strokes strokes;
   if (!(sphere.radius > 0.0) || !sphere.center.allFinite()) return strokes;
   const Projection projection(sphere, view);
   draw_grid(strokes, projection);
   draw_outline(strokes, projection, sphere);
-  for (const Eigen::Vector3d& center : recorded) {
-    draw_dot(strokes, projection, sphere, center, 3.2F, kWhite);
+  if (coverage.current && coverage.hole) draw_way(strokes, projection, coverage);
+  for (const Coverage::Dot& dot : coverage.recorded) {
+    if (dot.disagrees) draw_ring(strokes, projection, dot, sphere);
+    draw_dot(strokes, projection, sphere, dot.center, 3.2F, color_of_quality(dot.psnr));
   }
-  if (current) draw_dot(strokes, projection, sphere, *current, 5.5F, kRed);
+  if (coverage.current) draw_dot(strokes, projection, sphere, *coverage.current, 5.5F, kRed);
   return strokes;
 }
 

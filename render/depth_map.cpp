@@ -8,6 +8,7 @@
 
 #include "lightfield/light_field.h"
 #include "render/cost_volume.h"
+#include "render/reduced.h"
 #include "render/sampling.h"
 
 namespace lumibox::render {
@@ -23,32 +24,15 @@ constexpr double kMinAngle = 0.03;     // radians at S
 constexpr float kCostOfDoubt = 0.04F;  // of colours from 0 to 1
 constexpr float kLeastConfidence = 0.02F;
 
-hal::Image halved(const hal::Image& image) {
-  hal::Image half(image.width() / 2, image.height() / 2, 3);
-  for (int y = 0; y < half.height(); ++y) {
-    for (int x = 0; x < half.width(); ++x) {
-      for (int c = 0; c < 3; ++c) {
-        const int sum = image.at(2 * x, 2 * y)[c] + image.at(2 * x + 1, 2 * y)[c] +
-                        image.at(2 * x, 2 * y + 1)[c] + image.at(2 * x + 1, 2 * y + 1)[c];
-        half.at(x, y)[c] = static_cast<std::uint8_t>((sum + 2) / 4);
-      }
-    }
-  }
-  return half;
-}
-
 /// The perspective's picture, small and without the lens's distortion; grey where it has no pixel.
 /// None if the picture is lost.
 std::optional<SmallPicture> small_picture(const Perspective& perspective) {
-  const auto pixels = perspective.photo->rgb();
+  const std::optional<Perspective> small_perspective = reduced(perspective, kMaxPixels);
+  if (!small_perspective) return std::nullopt;
+  const std::shared_ptr<const hal::Image> pixels = small_perspective->photo->rgb();
   if (!pixels) return std::nullopt;
-  hal::Image image = *pixels;
-  int level = 0;
-  while (image.width() * image.height() > kMaxPixels) {
-    image = halved(image);
-    ++level;
-  }
-  const geometry::Camera lens = perspective.camera->at_level(level);
+  const hal::Image& image = *pixels;
+  const geometry::Camera& lens = *small_perspective->camera;
   SmallPicture small{lens.undistorted(), perspective.world_from_camera, {}};
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x) {

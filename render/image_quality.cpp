@@ -5,6 +5,12 @@
 #include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "geometry/robust.h"
+#include "render/sampling.h"
 
 namespace lumibox::render {
 namespace {
@@ -12,6 +18,8 @@ namespace {
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr int kWindow = 11;
 constexpr double kSigma = 1.5;
+constexpr int kCells = 10;           // across what is masked
+constexpr double kPatchShare = 0.9;  // an occluder of a tenth of the subject counts
 
 bool comparable(const hal::Image& a, const hal::Image& b, const hal::Image* mask) {
   const auto same_size = [](const hal::Image& x, const hal::Image& y) {
@@ -54,7 +62,70 @@ cv::Mat ssim_map(const cv::Mat& x, const cv::Mat& y) {
   return above / below;
 }
 
+/// Luma of two pictures, one of them to be shifted against the other.
+class MaskedPair {
+ public:
+  MaskedPair(const hal::Image& a, const hal::Image& b, const hal::Image& mask)
+      : a_(luma(a)), b_(luma(b)), mask_(mask) {}
+
+  /// Mean square of a(x, y) - b(x + dx, y + dy) where the mask and both pictures are; infinite if
+  /// that is nowhere.
+  double mean_square(int dx, int dy) const {
+    double squares = 0.0;
+    double count = 0.0;
+    for (int y = std::max(0, -dy); y < std::min(a_.rows, a_.rows - dy); ++y) {
+      for (int x = std::max(0, -dx); x < std::min(a_.cols, a_.cols - dx); ++x) {
+        if (*mask_.at(x, y) == 0) continue;
+        const double difference = a_.at<double>(y, x) - b_.at<double>(y + dy, x + dx);
+        squares += difference * difference;
+        count += 1.0;
+      }
+    }
+    return count > 0.0 ? squares / count : std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  cv::Mat a_;
+  cv::Mat b_;
+  const hal::Image& mask_;
+};
+
+/// Where the parabola through values at -1, 0 and 1 is lowest; 0 if it has no lowest point.
+double lowest(double before, double at, double after) {
+  const double curvature = before + after - 2.0 * at;
+  return std::isfinite(curvature) && curvature > 0.0 ? 0.5 * (before - after) / curvature : 0.0;
+}
+
+/// Root mean square over the channels of the difference of mean in one cell; none if less than a
+/// third of it is masked.
+std::optional<double> mean_difference(const hal::Image& a, const hal::Image& b,
+                                      const hal::Image& mask, int left, int top, int cell) {
+  Eigen::Array3d sum = Eigen::Array3d::Zero();
+  int count = 0;
+  for (int y = top; y < std::min(top + cell, mask.height()); ++y) {
+    for (int x = left; x < std::min(left + cell, mask.width()); ++x) {
+      if (*mask.at(x, y) == 0) continue;
+      sum += (texel(a, x, y) - texel(b, x, y)).array();
+      ++count;
+    }
+  }
+  if (3 * count < cell * cell || count == 0) return std::nullopt;
+  return std::sqrt((sum / count).square().mean());
+}
+
 }  // namespace
+
+Box box_of(const hal::Image& mask) {
+  Box box{mask.width(), mask.height(), -1, -1};
+  for (int y = 0; y < mask.height(); ++y) {
+    for (int x = 0; x < mask.width(); ++x) {
+      if (*mask.at(x, y) == 0) continue;
+      box = {std::min(box.left, x), std::min(box.top, y), std::max(box.right, x),
+             std::max(box.bottom, y)};
+    }
+  }
+  return box;
+}
 
 double psnr(const hal::Image& a, const hal::Image& b, const hal::Image* mask) {
   if (!comparable(a, b, mask)) return kNothing;
@@ -89,6 +160,44 @@ double ssim(const hal::Image& a, const hal::Image& b, const hal::Image* mask) {
     }
   }
   return count > 0.0 ? sum / count : kNothing;
+}
+
+Eigen::Vector2d shift_between(const hal::Image& a, const hal::Image& b, const hal::Image& mask,
+                              int reach) {
+  if (!comparable(a, b, &mask)) return Eigen::Vector2d::Zero();
+  const MaskedPair pair(a, b, mask);
+  double best = std::numeric_limits<double>::infinity();
+  int right = 0;
+  int down = 0;
+  for (int dy = -reach; dy <= reach; ++dy) {
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const double cost = pair.mean_square(dx, dy);
+      if (cost < best) {
+        best = cost;
+        right = dx;
+        down = dy;
+      }
+    }
+  }
+  if (!std::isfinite(best)) return Eigen::Vector2d::Zero();
+  return {
+      right + lowest(pair.mean_square(right - 1, down), best, pair.mean_square(right + 1, down)),
+      down + lowest(pair.mean_square(right, down - 1), best, pair.mean_square(right, down + 1))};
+}
+
+double patch_difference(const hal::Image& a, const hal::Image& b, const hal::Image& mask) {
+  if (!comparable(a, b, &mask)) return kNothing;
+  const Box box = box_of(mask);
+  const int cell = std::max(2, (box.width() + box.height()) / (2 * kCells));
+  std::vector<double> differences;
+  for (int y = box.top; y <= box.bottom; y += cell) {
+    for (int x = box.left; x <= box.right; x += cell) {
+      if (const auto difference = mean_difference(a, b, mask, x, y, cell)) {
+        differences.push_back(*difference);
+      }
+    }
+  }
+  return differences.empty() ? kNothing : geometry::quantile(std::move(differences), kPatchShare);
 }
 
 hal::Image subject_mask(const View& view, const lightfield::Sphere& sphere) {

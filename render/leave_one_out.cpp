@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <utility>
 
 #include "render/image_quality.h"
 #include "render/sampling.h"
@@ -76,6 +77,20 @@ UndistortedPicture undistort(const Perspective& perspective) {
   return result;
 }
 
+Photograph photograph_of(const Perspective& perspective, const lightfield::Sphere& subject) {
+  const View view{perspective.camera->undistorted(), perspective.world_from_camera};
+  UndistortedPicture picture = undistort(perspective);
+  hal::Image on_subject = both(subject_mask(view, subject), picture.valid);
+  return {view, std::move(picture), std::move(on_subject)};
+}
+
+Quality quality_of(const hal::Image& picture, const Photograph& photograph) {
+  const UndistortedPicture& truth = photograph.picture;
+  return {psnr(picture, truth.color, &truth.valid), ssim(picture, truth.color, &truth.valid),
+          psnr(picture, truth.color, &photograph.on_subject),
+          ssim(picture, truth.color, &photograph.on_subject)};
+}
+
 std::vector<MethodQuality> leave_one_out(const std::vector<Perspective>& perspectives,
                                          const lightfield::Sphere& subject,
                                          const config::Render& options, const RenderView& render,
@@ -90,16 +105,10 @@ std::vector<MethodQuality> leave_one_out(const std::vector<Perspective>& perspec
     std::vector<Perspective> others = perspectives;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
 
-    const View view{left_out.camera->undistorted(), left_out.world_from_camera};
-    const UndistortedPicture truth = undistort(left_out);
-    const hal::Image on_subject = both(subject_mask(view, subject), truth.valid);
+    const Photograph photograph = photograph_of(left_out, subject);
     for (std::size_t m = 0; m < compared.size(); ++m) {
-      const hal::Image picture = render(view, others, compared[m]);
-      results[m].views.push_back(
-          {left_out.id,
-           left_out.file,
-           {psnr(picture, truth.color, &truth.valid), ssim(picture, truth.color, &truth.valid),
-            psnr(picture, truth.color, &on_subject), ssim(picture, truth.color, &on_subject)}});
+      const hal::Image picture = render(photograph.view, others, compared[m]);
+      results[m].views.push_back({left_out.id, left_out.file, quality_of(picture, photograph)});
     }
   }
   for (MethodQuality& result : results) result.mean = mean_of(result.views);

@@ -57,6 +57,18 @@ struct UndistortedPicture {
 };
 UndistortedPicture undistort(const lightfield::Perspective& perspective);
 
+/// What a view of a perspective is measured against.
+struct Photograph {
+  View view;  ///< the perspective's own, without its lens's distortion
+  UndistortedPicture picture;
+  hal::Image on_subject;  ///< 255 where the picture has pixels within the sphere's outline
+};
+Photograph photograph_of(const lightfield::Perspective& perspective,
+                         const lightfield::Sphere& subject);
+
+/// Of a picture of the photograph's view.
+Quality quality_of(const hal::Image& picture, const Photograph& photograph);
+
 /// For each perspective in turn: its view rendered from all others, compared with its own
 /// undistorted photograph wherever that has pixels. Pixels that no other perspective covers stay
 /// black and count in full: that is what the person would see. `each_view`, if set, is called

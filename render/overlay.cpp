@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "render/arrows.h"
 #include "render/coverage_map.h"
 #include "render/gl.h"
 #include "render/shader_source.h"
@@ -170,16 +171,17 @@ void Overlay::draw_image(const hal::Image& color, const geometry::Camera& camera
   impl_->draw_image(color, camera, view, opacity, framebuffer);
 }
 
-void Overlay::draw_coverage(const lightfield::Sphere& sphere,
-                            const std::vector<Eigen::Vector3d>& recorded,
-                            const std::optional<Eigen::Vector3d>& current, const View& view,
-                            unsigned framebuffer) {
-  impl_->draw_strokes(coverage_map(sphere, recorded, current, view), view.camera.width(),
-                      view.camera.height(), framebuffer);
+void Overlay::draw_coverage(const Coverage& coverage, const View& view, unsigned framebuffer) {
+  impl_->draw_strokes(coverage_map(coverage, view), view.camera.width(), view.camera.height(),
+                      framebuffer);
 }
 
 void Overlay::draw_reticle(int width, int height, unsigned framebuffer) {
   impl_->draw_strokes(reticle(width, height), width, height, framebuffer);
+}
+
+void Overlay::draw_arrow(const Eigen::Vector2d& way, int width, int height, unsigned framebuffer) {
+  impl_->draw_strokes(edge_arrow(way, width, height), width, height, framebuffer);
 }
 
 void Overlay::draw_text(const std::vector<Text>& lines, int width, int height,

@@ -27,11 +27,12 @@ ProxyGeometry::ProxyGeometry(std::vector<Eigen::Vector3d> points, Estimating est
     : points_(std::move(points)), maps_(estimating) {}
 
 Settings ProxyGeometry::fit(Settings settings, Geometry geometry, const View& view,
-                            const std::vector<Perspective>& perspectives) {
+                            const std::vector<Perspective>& perspectives,
+                            const std::optional<std::vector<std::size_t>>& counted) {
   if (geometry == Geometry::Focal) {
     settings.focus = focal_point(view, settings.focus);
   } else if (geometry == Geometry::Mesh) {
-    settings.shape = shape_of(view, perspectives, settings.focus);
+    settings.shape = shape_of(view, perspectives, settings.focus, counted);
     if (settings.shape) settings.k = std::min(settings.k, static_cast<int>(kPicturesOfView));
   }
   return settings;
@@ -52,10 +53,15 @@ Eigen::Vector3d ProxyGeometry::focal_point(const View& view,
   return view.world_from_camera * Eigen::Vector3d(0.0, 0.0, 2.0 / (farthest + nearest));
 }
 
-std::shared_ptr<const Shape> ProxyGeometry::shape_of(const View& view,
-                                                     const std::vector<Perspective>& perspectives,
-                                                     const Eigen::Vector3d& focus) {
-  const auto ranked = nearest_by_angle(perspectives, view.world_from_camera.translation, focus);
+std::shared_ptr<const Shape> ProxyGeometry::shape_of(
+    const View& view, const std::vector<Perspective>& perspectives, const Eigen::Vector3d& focus,
+    const std::optional<std::vector<std::size_t>>& counted) {
+  auto ranked = nearest_by_angle(perspectives, view.world_from_camera.translation, focus);
+  if (counted) {
+    std::erase_if(ranked, [&](const auto& candidate) {
+      return std::ranges::find(*counted, candidate.second) == counted->end();
+    });
+  }
   const std::size_t count = std::min(kMapsOfView, ranked.size());
   std::vector<double> penalties;
   for (std::size_t i = 0; i < count; ++i) penalties.push_back(ranked[i].first);

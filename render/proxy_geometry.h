@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,14 +35,18 @@ class ProxyGeometry {
   /// Focal: `settings.focus` moves to the optical axis, to the harmonic mean of the depths of the
   /// nearest and the farthest point seen (Chai et al., "Plenoptic sampling", SIGGRAPH 2000);
   /// without points it stays. Mesh: settings.shape and fewer pictures. Plane: nothing changes.
+  /// Where only some of the perspectives are drawn, `counted` has their indices: the shape is told
+  /// by the depth maps of those (which themselves come from all).
   Settings fit(Settings settings, Geometry geometry, const View& view,
-               const std::vector<lightfield::Perspective>& perspectives);
+               const std::vector<lightfield::Perspective>& perspectives,
+               const std::optional<std::vector<std::size_t>>& counted = std::nullopt);
 
  private:
   Eigen::Vector3d focal_point(const View& view, const Eigen::Vector3d& otherwise) const;
   std::shared_ptr<const Shape> shape_of(const View& view,
                                         const std::vector<lightfield::Perspective>& perspectives,
-                                        const Eigen::Vector3d& focus);
+                                        const Eigen::Vector3d& focus,
+                                        const std::optional<std::vector<std::size_t>>& counted);
 
   std::vector<Eigen::Vector3d> points_;
   DepthMaps maps_;

@@ -25,6 +25,13 @@ std::string views_and_gate(const Session& session) {
                      session.threshold * 180.0 / std::numbers::pi);
 }
 
+std::string likeness(const Session& session) {
+  const render::CaptureQuality& quality = session.quality;
+  return quality.psnr.empty()
+             ? std::string{}
+             : fmt::format("likeness {:.1f} dB of {}", quality.median_psnr, quality.psnr.size());
+}
+
 std::string tracking_advice(const tracking::TrackedFrame& tracked) {
   if (tracked.state == tracking::TrackingState::Good) {
     return {};

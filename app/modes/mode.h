@@ -9,6 +9,7 @@
 #include "app/picture.h"
 #include "app/recorder.h"
 #include "config/config.h"
+#include "render/live_quality.h"
 
 namespace lumibox::app {
 
@@ -25,6 +26,7 @@ struct Session {
   Recorder& recorder;
   double threshold = 0.0;                                ///< of the gate, radians
   std::optional<WaitingCapture> waiting = std::nullopt;  ///< in the recorder already
+  render::CaptureQuality quality = {};                   ///< of the light field, as far as known
 };
 
 enum class ModeId { Acquire, Subject, Capture, Review, Resume };
@@ -54,6 +56,9 @@ int steps_of(const Gesture& gesture);
 
 /// "83 views  gate 4.0°"
 std::string views_and_gate(const Session& session);
+
+/// "likeness 27.4 dB of 61"; empty as long as nothing is judged.
+std::string likeness(const Session& session);
 
 /// What the person should do for the tracking to be good; empty if it is.
 std::string tracking_advice(const tracking::TrackedFrame& tracked);

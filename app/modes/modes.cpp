@@ -10,7 +10,7 @@ namespace lumibox::app {
 
 Modes::Modes(Session& session, const geometry::Camera& camera)
     : modes_{std::make_unique<AcquireMode>(), std::make_unique<SubjectMode>(session, camera),
-             std::make_unique<CaptureMode>(session), std::make_unique<ReviewMode>(session),
+             std::make_unique<CaptureMode>(session, camera), std::make_unique<ReviewMode>(session),
              std::make_unique<ResumeMode>(session)},
       current_(session.waiting ? ModeId::Resume : ModeId::Acquire) {}
 

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "app/orbit.h"
@@ -11,6 +12,7 @@ namespace lumibox::app {
 
 void ReviewMode::enter(const Moment& moment) {
   focus_steps_ = 0;
+  stand_ = -1;
   steering_ = pose_of_box(moment) ? Steering::Box : Steering::Orbit;
   orbit_began_ns_ = moment.now_ns;
 }
@@ -27,6 +29,10 @@ ModeId ReviewMode::press(const Gesture& gesture, const Moment& moment) {
       }
       break;
     case hal::Button::Review:
+      if (gesture.press == Press::Long) {
+        stand_at_next_disagreeing();
+        break;
+      }
       return session_.waiting ? ModeId::Resume : ModeId::Capture;
     case hal::Button::Plus:
     case hal::Button::Minus:
@@ -44,7 +50,7 @@ ModeId ReviewMode::update(const Moment& moment) {
     // Without a pose the view stays where it was.
     const auto world_from_box = pose_of_box(moment);
     world_from_view_ = world_from_box ? world_from_box : world_from_view_;
-  } else {
+  } else if (steering_ == Steering::Orbit) {
     const double period_s = session_.config.controls.orbit_period_s;
     const double time_s = 1e-9 * static_cast<double>(moment.now_ns - orbit_began_ns_);
     world_from_view_ =
@@ -62,12 +68,8 @@ Picture ReviewMode::draw(const Moment& moment) const {
   if (focus_steps_ != 0) {
     picture.title += fmt::format("  focus {:+}", focus_steps_);
   }
-  if (steering_ == Steering::Box) {
-    picture.advice = tracking_advice(moment.tracked);
-  }
-  if (light_field.perspectives().empty()) {
-    picture.advice = "nothing recorded yet";
-  }
+  picture.details = likeness(session_);
+  picture.advice = advice(moment);
   if (!world_from_view_) {
     return picture;
   }
@@ -79,6 +81,42 @@ Picture ReviewMode::draw(const Moment& moment) const {
   return picture;
 }
 
+std::string ReviewMode::advice(const Moment& moment) const {
+  const auto& disagreeing = session_.quality.disagreeing;
+  if (session_.recorder.light_field().perspectives().empty()) {
+    return "nothing recorded yet";
+  }
+  if (const std::string advice = tracking_advice(moment.tracked);
+      steering_ == Steering::Box && !advice.empty()) {
+    return advice;
+  }
+  if (steering_ == Steering::Stand && std::ranges::binary_search(disagreeing, stand_)) {
+    return fmt::format("view {} does not fit: Wipe removes it; hold Review for the next", stand_);
+  }
+  if (disagreeing.empty()) {
+    return {};
+  }
+  return disagreeing.size() == 1
+             ? "1 view disagrees: hold Review to see it"
+             : fmt::format("{} views disagree: hold Review to see them", disagreeing.size());
+}
+
+/// In order of id, and from the last to the first again; without any the view stays as it is.
+void ReviewMode::stand_at_next_disagreeing() {
+  const auto& disagreeing = session_.quality.disagreeing;
+  if (disagreeing.empty()) {
+    return;
+  }
+  const auto next = std::ranges::upper_bound(disagreeing, stand_);
+  stand_ = next == disagreeing.end() ? disagreeing.front() : *next;
+  const auto& perspectives = session_.recorder.light_field().perspectives();
+  const auto perspective = std::ranges::find(perspectives, stand_, &lightfield::Perspective::id);
+  if (perspective != perspectives.end()) {
+    steering_ = Steering::Stand;
+    world_from_view_ = perspective->world_from_camera;
+  }
+}
+
 /// None also where the box is in another world than the light field.
 std::optional<geometry::Pose> ReviewMode::pose_of_box(const Moment& moment) const {
   const bool same_world = !session_.waiting || session_.waiting->problem.empty();
@@ -88,6 +126,8 @@ std::optional<geometry::Pose> ReviewMode::pose_of_box(const Moment& moment) cons
 void ReviewMode::wipe(Press press) {
   if (press == Press::Long) {
     session_.recorder.undo_wipe();
+  } else if (steering_ == Steering::Stand && session_.recorder.wipe(stand_)) {
+    // Not the nearest: another may have been taken at the same place.
   } else if (world_from_view_) {
     session_.recorder.wipe_nearest(world_from_view_->translation);
   }

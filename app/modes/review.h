@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "app/modes/mode.h"
 #include "render/view.h"
@@ -23,15 +24,19 @@ class ReviewMode : public Mode {
   enum class Steering {
     Box,    ///< the pose of the box itself
     Orbit,  ///< nobody: it goes slowly around the subject
+    Stand,  ///< nobody: it stands where a picture was taken that disagrees with others
   };
 
   std::optional<geometry::Pose> pose_of_box(const Moment& moment) const;
+  void stand_at_next_disagreeing();
+  std::string advice(const Moment& moment) const;
   void wipe(Press press);
   Eigen::Vector3d focus() const;
 
   Session& session_;
   Steering steering_ = Steering::Box;
   render::Aperture aperture_ = render::Aperture::Small;
+  int stand_ = -1;                                 ///< id of the perspective stood at last
   int focus_steps_ = 0;                            ///< away from S, in steps of inverse depth
   std::int64_t orbit_began_ns_ = 0;                ///< Clock time
   std::optional<geometry::Pose> world_from_view_;  ///< the virtual camera

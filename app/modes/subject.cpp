@@ -72,7 +72,7 @@ Picture SubjectMode::draw(const Moment& moment) const {
       picture.advice = "wave the box a little; + and - focus, Main puts the sphere there";
     }
   } else {
-    picture.coverage = CoveragePicture{*subject, {}, std::nullopt};
+    picture.coverage = render::Coverage{*subject, {}, std::nullopt, std::nullopt};
     if (picture.advice.empty()) {
       picture.advice = placed_
                            ? "+ and - slide the sphere; Main begins the capture"

@@ -17,11 +17,13 @@ namespace {
 using hal::Button;
 using testing::around_subject;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr Gesture kMain{Button::Main, Press::Short};
 constexpr Gesture kMainLong{Button::Main, Press::Long};
 constexpr Gesture kReview{Button::Review, Press::Short};
+constexpr Gesture kReviewLong{Button::Review, Press::Long};
 constexpr Gesture kPlus{Button::Plus, Press::Short};
 constexpr Gesture kPlusLong{Button::Plus, Press::Long};
 constexpr Gesture kMinus{Button::Minus, Press::Short};
@@ -265,6 +267,62 @@ TEST(Capture, LossIsSaidAndNothingIsRecorded) {
   EXPECT_FALSE(box.picture.coverage);
 }
 
+TEST(Capture, SaysTheGhostingThatTheGateLeaves) {
+  Box box;
+  box.go_to_capture();
+  box.walk();
+  box.tick({}, 0.1);
+  // f = 60, a sphere of 0.35 of the distance, 4 degrees: 60 * 0.0698 * 0.35 / 0.8775 = 1.67.
+  EXPECT_THAT(box.picture.title, HasSubstr("gate 4.0\u00b0  ghosting 2 px"));
+  for (int i = 0; i < 10; ++i) {
+    box.tick({kPlus}, 0.1);
+  }
+  EXPECT_THAT(box.picture.title, HasSubstr("ghosting 16 px"));
+  box.tick_with({}, box.world.see_nothing(tracking::TrackingReason::Relocalising));
+  EXPECT_THAT(box.picture.title, Not(HasSubstr("ghosting"))) << "nobody knows the distance";
+}
+
+TEST(Capture, PointsToTheHoleUntilItIsFilled) {
+  Box box;
+  box.go_to_capture();
+  box.walk();
+  EXPECT_EQ(box.picture.details, "") << "a walk without holes";
+  EXPECT_FALSE(box.picture.way);
+  EXPECT_FALSE(box.picture.coverage->hole);
+  for (int i = 0; i < 8; ++i) {
+    box.tick({kWipe});  // and recording pauses
+  }
+  box.tick({}, -25.0 * kDegree);
+  EXPECT_THAT(box.picture.details, HasSubstr("more for the holes"));
+  ASSERT_TRUE(box.picture.way);
+  EXPECT_LT(box.picture.way->x(), -0.9) << "around_subject() goes to the left";
+  ASSERT_TRUE(box.picture.coverage->hole);
+  box.tick({}, 25.0 * kDegree);
+  EXPECT_GT(box.picture.way->x(), 0.9);
+  box.tick({}, 0.0);
+  EXPECT_FALSE(box.picture.way) << "it is there";
+  box.tick({kMain});
+  box.walk();
+  box.tick();
+  EXPECT_EQ(box.picture.details, "");
+  EXPECT_FALSE(box.picture.coverage->hole);
+}
+
+TEST(Capture, DotsHaveTheirQualityAsFarAsItIsKnown) {
+  Box box;
+  box.go_to_capture();
+  box.walk();
+  box.session.quality = {{{0, 31.0}, {2, 17.0}}, {2}, 24.0};
+  box.tick();
+  const auto& dots = box.picture.coverage->recorded;
+  EXPECT_EQ(dots[0].psnr, 31.0);
+  EXPECT_FALSE(dots[0].disagrees);
+  EXPECT_FALSE(dots[1].psnr);
+  EXPECT_EQ(dots[2].psnr, 17.0);
+  EXPECT_TRUE(dots[2].disagrees);
+  EXPECT_THAT(box.picture.details, HasSubstr("likeness 24.0 dB of 2"));
+}
+
 TEST(Review, IsThereInTheSameTickAndShowsAllThatIsRecorded) {
   Box box;
   box.go_to_capture();
@@ -327,6 +385,43 @@ TEST(Review, OrbitTurnsByItselfAndNeedsNoTracking) {
   }
   EXPECT_GT((box.picture.world_from_view->translation - first.translation).norm(), 0.01);
   EXPECT_EQ(box.picture.advice, "");
+}
+
+TEST(Review, GoesToTheViewsThatDisagreeOneAfterTheOtherAndWipesThem) {
+  Box box;
+  box.go_to_capture();
+  box.walk();
+  box.tick({kReview}, 0.2);
+  EXPECT_EQ(box.picture.advice, "");
+  box.tick({kReviewLong}, 0.2);
+  EXPECT_EQ(box.modes.current(), ModeId::Review) << "there is none to go to";
+  EXPECT_EQ(box.picture.world_from_view->translation, around_subject(0.2).translation);
+
+  box.session.quality = {{{2, 17.0}, {5, 16.0}}, {2, 5}, 16.5};
+  box.tick({}, 0.2);
+  EXPECT_EQ(box.picture.advice, "2 views disagree: hold Review to see them");
+  EXPECT_EQ(box.picture.details, "likeness 16.5 dB of 2");
+  const auto& light_field = box.recorder.light_field();
+  const auto center_of = [&](std::size_t i) { return light_field.perspectives()[i].center(); };
+  for (const std::size_t expected : {2U, 5U, 2U}) {
+    box.tick({kReviewLong}, 0.2);
+    EXPECT_EQ(box.picture.world_from_view->translation, center_of(expected));
+    box.tick({}, 0.3);
+    EXPECT_EQ(box.picture.world_from_view->translation, center_of(expected)) << "it stays there";
+  }
+  EXPECT_EQ(box.picture.advice, "view 2 does not fit: Wipe removes it; hold Review for the next");
+  const std::size_t recorded = box.views();
+  box.tick({kWipe}, 0.2);
+  EXPECT_EQ(box.views(), recorded - 1);
+  EXPECT_EQ(light_field.perspectives()[2].id, 3);
+  box.session.quality.disagreeing = {5};
+  box.tick({}, 0.2);
+  EXPECT_EQ(box.picture.advice, "1 view disagrees: hold Review to see it");
+  box.tick({kWipeLong}, 0.2);
+  EXPECT_EQ(light_field.perspectives()[2].id, 2) << "undone";
+  box.tick({kMainLong}, 0.2);
+  EXPECT_EQ(box.picture.world_from_view->translation, around_subject(0.2).translation)
+      << "the box steers again";
 }
 
 TEST(Review, OfNothingSaysSo) {

@@ -35,8 +35,11 @@ TEST(TextOf, APictureFitsTheDisplayWhateverItSays) {
   Picture picture;
   picture.title = "aim at the subject";
   for (int i = 0; i < 30; ++i) picture.advice += "words ";
+  picture.details = "likeness 27.4 dB of 61   12 more for the holes";
   picture.alerts = {picture.advice};
   const std::vector<render::Text> lines = text_of(picture, 640, 480);
+  EXPECT_EQ(lines[1].utf8, picture.details);
+  EXPECT_GT(lines[1].y - lines[1].size, lines[0].y);
   ASSERT_GT(lines.size(), 5U);
   float alerts_end = 0.0F;
   float advice_begin = 480.0F;

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "render/ray_cast.h"
 
@@ -14,6 +16,12 @@ hal::Image uniform(int width, int height, std::uint8_t value) {
   hal::Image image(width, height, 3);
   std::fill_n(image.data(), image.size_bytes(), value);
   return image;
+}
+
+hal::Image uniform_mask(int width, int height) {
+  hal::Image mask(width, height, 1);
+  std::fill_n(mask.data(), mask.size_bytes(), std::uint8_t{255});
+  return mask;
 }
 
 TEST(Psnr, OfAKnownError) {
@@ -62,6 +70,88 @@ TEST(Ssim, IsOneForEqualAndNegativeForInvertedPictures) {
   }
   EXPECT_NEAR(ssim(a, a), 1.0, 1e-12);
   EXPECT_LT(ssim(a, inverted), -0.9);
+}
+
+/// Smooth stripes that move with (dx, dy).
+hal::Image waves(double dx, double dy) {
+  hal::Image image(60, 40, 3);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 60; ++x) {
+      const double value =
+          128.0 + 60.0 * std::sin(0.5 * (x - dx)) + 60.0 * std::sin(0.4 * (y - dy));
+      for (int c = 0; c < 3; ++c) image.at(x, y)[c] = static_cast<std::uint8_t>(std::lround(value));
+    }
+  }
+  return image;
+}
+
+TEST(ShiftBetween, FindsAMoveToAFractionOfAPixel) {
+  const hal::Image mask = uniform_mask(60, 40);
+  for (const auto& [dx, dy] : {std::pair{0.0, 0.0}, {2.0, -3.0}, {0.4, 0.0}, {-1.3, 2.6}}) {
+    const Eigen::Vector2d shift = shift_between(waves(0.0, 0.0), waves(dx, dy), mask, 4);
+    EXPECT_NEAR(shift.x(), dx, 0.1);
+    EXPECT_NEAR(shift.y(), dy, 0.1);
+  }
+}
+
+TEST(ShiftBetween, LooksNoFartherThanItsReachAndAtTheMaskOnly) {
+  const hal::Image a = waves(0.0, 0.0);
+  const hal::Image mask = uniform_mask(60, 40);
+  EXPECT_LE(std::abs(shift_between(a, waves(5.0, 0.0), mask, 2).x()), 2.5);
+  hal::Image half = waves(2.0, 0.0);  // the left half has moved, the right one has not
+  hal::Image left(60, 40, 1);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 60; ++x) {
+      if (x < 30) *left.at(x, y) = 255;
+      if (x >= 30) std::copy_n(a.at(x, y), 3, half.at(x, y));
+    }
+  }
+  EXPECT_NEAR(shift_between(a, half, left, 4).x(), 2.0, 0.2);
+  EXPECT_EQ(shift_between(a, half, hal::Image(60, 40, 1), 4), Eigen::Vector2d::Zero());
+  EXPECT_EQ(shift_between(a, uniform(20, 10, 100), mask, 4), Eigen::Vector2d::Zero());
+}
+
+TEST(PatchDifference, SeesAPatchAndHardlyAShift) {
+  const hal::Image a = waves(0.0, 0.0);
+  const hal::Image mask = uniform_mask(60, 40);
+  EXPECT_EQ(patch_difference(a, a, mask), 0.0);
+  EXPECT_NEAR(patch_difference(uniform(60, 40, 100), uniform(60, 40, 130), mask), 30.0, 1e-9);
+  hal::Image patched = a;
+  for (int y = 10; y < 30; ++y) {
+    for (int x = 10; x < 35; ++x) {
+      for (int c = 0; c < 3; ++c)
+        patched.at(x, y)[c] = static_cast<std::uint8_t>(a.at(x, y)[c] / 4);
+    }
+  }
+  EXPECT_GT(patch_difference(a, patched, mask), 60.0);
+  const auto fine = [](double dx) {
+    hal::Image image(60, 40, 3);
+    for (int y = 0; y < 40; ++y) {
+      for (int x = 0; x < 60; ++x) {
+        const double value = 128.0 + 80.0 * std::sin(2.0 * (x - dx)) * std::sin(2.2 * y);
+        for (int c = 0; c < 3; ++c) {
+          image.at(x, y)[c] = static_cast<std::uint8_t>(std::lround(value));
+        }
+      }
+    }
+    return image;
+  };
+  EXPECT_LT(patch_difference(fine(0.0), fine(1.0), mask), 15.0);
+  EXPECT_TRUE(std::isnan(patch_difference(a, a, hal::Image(60, 40, 1))));
+  EXPECT_TRUE(std::isnan(patch_difference(a, uniform(20, 10, 100), mask)));
+}
+
+TEST(BoxOf, IsTheSmallestThatHoldsAll) {
+  hal::Image mask(20, 10, 1);
+  EXPECT_TRUE(box_of(mask).empty());
+  *mask.at(3, 8) = 255;
+  *mask.at(7, 2) = 1;
+  const Box box = box_of(mask);
+  EXPECT_EQ(box.left, 3);
+  EXPECT_EQ(box.right, 7);
+  EXPECT_EQ(box.width(), 5);
+  EXPECT_EQ(box.top, 2);
+  EXPECT_EQ(box.height(), 7);
 }
 
 TEST(SubjectMask, HasTheAreaOfTheSpheresOutline) {

@@ -7,9 +7,11 @@
 #include <cstdlib>
 #include <limits>
 
+#include "geometry/rotation.h"
 #include "render/font.h"
 #include "render/gl_test.h"
 #include "render/leave_one_out.h"
+#include "render/quality_color.h"
 #include "render/ray_cast.h"
 
 namespace lumibox::render {
@@ -87,7 +89,7 @@ TEST_F(OverlayTest, DotsLieWhereTheLineToSMeetsTheSphere) {
   clear(0.4F);
   const Eigen::Vector3d recorded(-4.0, 1.0, -8.0);
   const Eigen::Vector3d current(3.0, -2.0, -7.0);
-  overlay_->draw_coverage(sphere_, {recorded}, current, front_, framebuffer());
+  overlay_->draw_coverage({sphere_, {{recorded, 26.0}}, current, {}}, front_, framebuffer());
   const hal::Image shown = read_back();
   const auto shown_at = [&](const Eigen::Vector3d& center) {
     const auto pixel = front_.camera.project(front_.world_from_camera.inverse() *
@@ -101,10 +103,119 @@ TEST_F(OverlayTest, DotsLieWhereTheLineToSMeetsTheSphere) {
   EXPECT_TRUE(red[0] > 240 && red[1] < 60 && red[2] < 60);
 }
 
+TEST_F(OverlayTest, DotsHaveTheColourOfTheirQuality) {
+  clear(0.4F);
+  const std::vector<Coverage::Dot> dots = {
+      {{-2.0, 0.0, -4.0}, 40.0}, {{-0.7, 0.0, -4.0}, {}}, {{0.7, 0.0, -4.0}, 12.0}};
+  overlay_->draw_coverage({sphere_, dots, {}, {}}, front_, framebuffer());
+  const hal::Image shown = read_back();
+  const auto shown_at = [&](std::size_t i) {
+    const auto pixel = front_.camera.project(front_.world_from_camera.inverse() *
+                                             Eigen::Vector3d(dots[i].center.normalized()));
+    return shown.at(static_cast<int>(std::lround(pixel->x())),
+                    static_cast<int>(std::lround(pixel->y())));
+  };
+  EXPECT_GT(shown_at(0)[2], shown_at(0)[0] + 100) << "good: blue";
+  EXPECT_NEAR(shown_at(1)[0], shown_at(1)[2], 3) << "unknown: grey";
+  EXPECT_LT(shown_at(1)[0], 200);
+  EXPECT_GT(shown_at(2)[0], shown_at(2)[2] + 100) << "poor: orange";
+}
+
+TEST_F(OverlayTest, OneThatDisagreesHasARing) {
+  const auto orange = [&](bool disagrees) {
+    clear(0.0F);
+    overlay_->draw_coverage({sphere_, {{{0.0, 0.0, -4.0}, 26.0, disagrees}}, {}, {}}, front_,
+                            framebuffer());
+    const hal::Image shown = read_back();
+    int count = 0;
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) {
+        count += shown.at(x, y)[0] > shown.at(x, y)[2] + 100 ? 1 : 0;
+      }
+    }
+    return count;
+  };
+  EXPECT_EQ(orange(false), 0);
+  EXPECT_GT(orange(true), 15);
+}
+
+/// Pixels that are yellow, by their mean place.
+struct Yellow {
+  int count = 0;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+
+  explicit Yellow(const hal::Image& image) {
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) {
+        const std::uint8_t* p = image.at(x, y);
+        if (p[0] < 180 || p[1] < 140 || p[2] > 120) continue;
+        ++count;
+        middle += Eigen::Vector2d(x, y);
+      }
+    }
+    if (count > 0) middle /= count;
+  }
+};
+
+TEST_F(OverlayTest, AnArrowOnTheSphereLeadsFromTheCameraToTheHole) {
+  const Eigen::Vector3d current(-1.5, 0.0, -4.0);
+  const Eigen::Vector3d hole = Eigen::Vector3d(1.5, -2.0, -4.0).normalized();
+  clear(0.0F);
+  overlay_->draw_coverage({sphere_, {}, current, hole}, front_, framebuffer());
+  const hal::Image shown = read_back();
+  const auto on_screen = [&](const Eigen::Vector3d& direction) {
+    return *front_.camera.project(front_.world_from_camera.inverse() *
+                                  Eigen::Vector3d(direction.normalized()));
+  };
+  const auto is_yellow = [&](const Eigen::Vector2d& pixel) {
+    const std::uint8_t* p = shown.at(static_cast<int>(std::lround(pixel.x())),
+                                     static_cast<int>(std::lround(pixel.y())));
+    return p[0] > 150 && p[1] > 120 && p[2] < 120;
+  };
+  for (const double share : {0.3, 0.5, 0.8}) {
+    EXPECT_TRUE(is_yellow(on_screen(geometry::slerp(current.normalized(), hole, share)))) << share;
+  }
+  clear(0.0F);
+  overlay_->draw_coverage({sphere_, {}, current, {}}, front_, framebuffer());
+  EXPECT_EQ(Yellow(read_back()).count, 0);
+}
+
+TEST_F(OverlayTest, AnArrowAtTheEdgePointsOutwards) {
+  for (const auto& [way, where] : {std::pair{Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d(300, 120)},
+                                   {Eigen::Vector2d(-2.0, 0.0), Eigen::Vector2d(20, 120)},
+                                   {Eigen::Vector2d(0.0, -0.1), Eigen::Vector2d(160, 50)},
+                                   {Eigen::Vector2d(0.0, 1.0), Eigen::Vector2d(160, 190)}}) {
+    clear(0.0F);
+    overlay_->draw_arrow(way, kWidth, kHeight, framebuffer());
+    const hal::Image shown = read_back();
+    const Yellow yellow(shown);
+    EXPECT_GT(yellow.count, 20);
+    EXPECT_LT((yellow.middle - where).norm(), 25.0) << yellow.middle.transpose();
+    // The head is wider than the shaft, and outside.
+    const Eigen::Vector2d middle(0.5 * (kWidth - 1), 0.5 * (kHeight - 1));
+    EXPECT_GT((yellow.middle - middle).dot(way.normalized()), 50.0);
+  }
+  clear(0.0F);
+  overlay_->draw_arrow({0.0, 0.0}, kWidth, kHeight, framebuffer());
+  EXPECT_EQ(read_back(), hal::Image(kWidth, kHeight, 3));
+}
+
+TEST(ColorOfQuality, GoesFromOrangeOverWhiteToBlue) {
+  EXPECT_EQ(color_of_quality(10.0).b, color_of_quality(18.0).b);
+  EXPECT_EQ(color_of_quality(26.0).r, 1.0F);
+  EXPECT_EQ(color_of_quality(26.0).b, 1.0F);
+  EXPECT_EQ(color_of_quality(34.0).r, color_of_quality(99.0).r);
+  float before = 2.0F;
+  for (double psnr = 26.0; psnr <= 34.0; psnr += 1.0) {
+    EXPECT_LT(color_of_quality(psnr).r, before);
+    before = color_of_quality(psnr).r;
+  }
+}
+
 TEST_F(OverlayTest, TheFarSideIsDimmer) {
   const auto brightest_at_middle = [&](const Eigen::Vector3d& center) {
     clear(0.0F);
-    overlay_->draw_coverage(sphere_, {center}, std::nullopt, front_, framebuffer());
+    overlay_->draw_coverage({sphere_, {{center, 26.0}}, {}, {}}, front_, framebuffer());
     return *read_back().at(kWidth / 2, kHeight / 2);
   };
   const int near = brightest_at_middle({0.02, 0.0, -4.0});
@@ -116,14 +227,18 @@ TEST_F(OverlayTest, TheFarSideIsDimmer) {
 
 TEST_F(OverlayTest, OddSpheresAreNoError) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<Eigen::Vector3d> centers = {{0, 0, 0}, {0, 0, -4}, {nan, 0, 0}};
+  const std::vector<Coverage::Dot> dots = {
+      {{0, 0, 0}, {}}, {{0, 0, -4}, 20.0, true}, {{nan, 0, 0}, nan}};
+  const Eigen::Vector3d current(0, 0, -4);
   for (const double radius : {0.0, -1.0, nan, 1e-6, 3.999, 4.0, 50.0, 1e12}) {
-    overlay_->draw_coverage({Eigen::Vector3d::Zero(), radius}, centers, centers[1], front_,
-                            framebuffer());
+    for (const Eigen::Vector3d& hole : {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(nan, 0, 0)}) {
+      overlay_->draw_coverage({{Eigen::Vector3d::Zero(), radius}, dots, current, hole}, front_,
+                              framebuffer());
+    }
   }
   const View away{front_.camera, look_at({0, 0, -4}, {0, 0, -8})};
   clear(0.0F);
-  overlay_->draw_coverage(sphere_, centers, centers[1], away, framebuffer());
+  overlay_->draw_coverage({sphere_, dots, current, current}, away, framebuffer());
   EXPECT_EQ(read_back(), hal::Image(kWidth, kHeight, 3));  // all of it lies behind
 }
 

@@ -1,0 +1,127 @@
+#include "render/live_quality.h"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <exception>
+#include <string>
+#include <utility>
+
+#include "config/log.h"
+#include "geometry/robust.h"
+
+namespace lumibox::render {
+namespace {
+
+using lightfield::Perspective;
+
+/// True if nothing that a judgement comes from differs.
+bool same(const Perspective& a, const Perspective& b) {
+  return a.id == b.id && a.photo == b.photo &&
+         a.world_from_camera.translation == b.world_from_camera.translation &&
+         a.world_from_camera.rotation.coeffs() == b.world_from_camera.rotation.coeffs();
+}
+
+/// From now on the calling thread works only when no other wants to.
+void step_back() {
+  const sched_param none{};
+  if (sched_setscheduler(0, SCHED_IDLE, &none) != 0) {
+    config::log_warning("pictures are judged at the loop's own priority");
+  }
+}
+
+}  // namespace
+
+LiveQuality::LiveQuality(const config::Render& render, const config::Quality& quality,
+                         Estimating estimating)
+    : estimating_(estimating), docket_(render, quality) {
+  if (estimating == Estimating::Meanwhile) thread_ = std::thread([this] { run(); });
+}
+
+LiveQuality::~LiveQuality() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+const CaptureQuality& LiveQuality::watch(const lightfield::LightField& light_field) {
+  if (see(light_field)) pending_ = Seen{seen_};
+  if (estimating_ == Estimating::AtOnce) {
+    if (pending_) docket_.set(pending_->perspectives, pending_->subject);
+    pending_.reset();
+    docket_.judge_next();
+    rulings_ = docket_.rulings();
+  } else {
+    exchange();
+  }
+  tell();
+  return quality_;
+}
+
+/// True if the light field is not what was seen last.
+bool LiveQuality::see(const lightfield::LightField& light_field) {
+  static const std::vector<Perspective> kNothing;
+  const lightfield::Sphere subject = light_field.subject().value_or(lightfield::Sphere{});
+  const auto& perspectives = light_field.subject() ? light_field.perspectives() : kNothing;
+  if (subject.center == seen_.subject.center && subject.radius == seen_.subject.radius &&
+      std::ranges::equal(perspectives, seen_.perspectives, same)) {
+    return false;
+  }
+  seen_ = {perspectives, subject};
+  return true;
+}
+
+/// Hands over what is pending, takes what there is. The thread may be put aside while it holds the
+/// lock: then that waits for the next tick, not the tick for it.
+void LiveQuality::exchange() {
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock) return;
+  if (handed_back_) rulings_ = *std::exchange(handed_back_, std::nullopt);
+  if (!pending_) return;
+  handed_over_ = std::exchange(pending_, std::nullopt);
+  changed_.notify_all();
+}
+
+void LiveQuality::tell() {
+  quality_ = {};
+  std::vector<double> all;
+  auto seen = seen_.perspectives.begin();
+  for (const Ruling& ruling : rulings_) {
+    seen = std::find_if(seen, seen_.perspectives.end(),
+                        [&](const Perspective& p) { return p.id >= ruling.id; });
+    if (seen == seen_.perspectives.end()) break;
+    if (seen->id != ruling.id || seen->photo != ruling.picture.lock()) continue;
+    quality_.psnr[ruling.id] = ruling.psnr;
+    if (ruling.disagrees) quality_.disagreeing.push_back(ruling.id);
+    all.push_back(ruling.psnr);
+  }
+  quality_.median_psnr = geometry::median(std::move(all));
+}
+
+void LiveQuality::run() {
+  step_back();
+  std::unique_lock lock(mutex_);
+  bool idle = true;
+  while (true) {
+    changed_.wait(lock, [&] { return stopping_ || handed_over_ || !idle; });
+    if (stopping_) return;
+    const std::optional<Seen> seen = std::exchange(handed_over_, std::nullopt);
+    lock.unlock();
+    std::optional<std::vector<Ruling>> rulings;
+    try {
+      if (seen) docket_.set(seen->perspectives, seen->subject);
+      idle = !docket_.judge_next();
+      rulings = docket_.rulings();
+    } catch (const std::exception& exception) {
+      config::log_error(std::string("pictures cannot be judged: ") + exception.what());
+      idle = true;  // until something changes
+    }
+    lock.lock();
+    if (rulings) handed_back_ = std::move(rulings);
+  }
+}
+
+}  // namespace lumibox::render

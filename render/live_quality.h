@@ -1,0 +1,67 @@
+#pragma once
+
+#include <condition_variable>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "config/config.h"
+#include "lightfield/light_field.h"
+#include "render/docket.h"
+
+namespace lumibox::render {
+
+/// How good a capture is so far.
+struct CaptureQuality {
+  /// By id, of those judged: PSNR in dB of the perspective's view, made from those around it,
+  /// against its own picture, on the subject (Judgement).
+  std::map<int, double> psnr;
+  std::vector<int> disagreeing;  ///< ids of those that do not fit those around them, ascending
+  double median_psnr = 0.0;      ///< of those judged, dB; 0 if there are none
+};
+
+/// Judges a light field while it is captured. Meanwhile: on a thread of its own, which works when
+/// no other thread of the machine wants the processor. At once: one perspective per call.
+class LiveQuality {
+ public:
+  LiveQuality(const config::Render& render, const config::Quality& quality, Estimating estimating);
+  ~LiveQuality();
+  LiveQuality(const LiveQuality&) = delete;
+  LiveQuality& operator=(const LiveQuality&) = delete;
+
+  /// Once per tick: what the light field is now, and what is known of it. Only perspectives that it
+  /// holds are judged or told of. Never waits for a judgement that another thread makes.
+  const CaptureQuality& watch(const lightfield::LightField& light_field);
+
+ private:
+  /// What of a light field is judged.
+  struct Seen {
+    std::vector<lightfield::Perspective> perspectives;
+    lightfield::Sphere subject;
+  };
+
+  bool see(const lightfield::LightField& light_field);
+  void exchange();
+  void tell();
+  void run();
+
+  Estimating estimating_;
+  Docket docket_;                ///< the thread's, if there is one
+  Seen seen_;                    ///< what was watched last
+  std::optional<Seen> pending_;  ///< not yet handed over
+  std::vector<Ruling> rulings_;  ///< the newest known, maybe of perspectives that are gone
+  CaptureQuality quality_;
+
+  std::mutex mutex_;  // guards what follows
+  std::condition_variable changed_;
+  std::optional<Seen> handed_over_;
+  std::optional<std::vector<Ruling>> handed_back_;
+  bool stopping_ = false;
+
+  std::thread thread_;
+};
+
+}  // namespace lumibox::render

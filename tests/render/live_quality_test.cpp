@@ -1,0 +1,280 @@
+#include "render/live_quality.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+#include "geometry/rotation.h"
+#include "render/docket.h"
+#include "render/image_quality.h"
+#include "render/ray_cast.h"
+#include "support/photo.h"
+#include "render/reduced.h"
+
+namespace lumibox::render {
+namespace {
+
+using lightfield::Perspective;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+const lightfield::Sphere kBall{Eigen::Vector3d::Zero(), 1.0};
+
+/// A walk past the ball in three rows, as a gate of six degrees records it.
+std::vector<Perspective> walk(int columns = 6, int rows = 3) {
+  std::vector<Perspective> perspectives;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const double across = 6.5 * kDegree * (column + 0.2 * row - 0.5 * columns);
+      const double up = 6.5 * kDegree * (row - 0.5 * rows);
+      const Eigen::Vector3d center(4.0 * std::sin(across) * std::cos(up), 4.0 * std::sin(up),
+                                   -4.0 * std::cos(across) * std::cos(up));
+      const Eigen::Vector3d target(0.05 * std::sin(3.0 * column), 0.05 * std::cos(2.0 * row), 0.0);
+      perspectives.push_back(test::photograph_perspective(
+          static_cast<int>(perspectives.size()), test::textured_ball(1.0),
+          test::make_camera(64, 48), test::look_at(center, target, 0.05 * std::sin(column))));
+    }
+  }
+  return perspectives;
+}
+
+constexpr std::size_t kMiddle = 8;  // of walk(): with others all around
+
+template <typename Change>
+void change_picture(Perspective& perspective, const Change& change) {
+  hal::Image picture = *perspective.photo->rgb();
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) change(picture.at(x, y), x, y);
+  }
+  perspective.photo = testing::photo_of(std::move(picture));
+}
+
+void expose(Perspective& perspective, double factor) {
+  change_picture(perspective, [&](std::uint8_t* pixel, int, int) {
+    for (int c = 0; c < 3; ++c) {
+      pixel[c] = static_cast<std::uint8_t>(std::min(255.0, std::round(factor * pixel[c])));
+    }
+  });
+}
+
+struct Outcome {
+  int slices = 0;
+  std::vector<Ruling> rulings;
+  std::vector<int> disagreeing;
+};
+
+/// All that there is to judge, judged.
+Outcome judge_all(Docket& docket, const std::vector<Perspective>& perspectives) {
+  docket.set(perspectives, kBall);
+  Outcome outcome;
+  while (docket.judge_next()) ++outcome.slices;
+  outcome.rulings = docket.rulings();
+  for (const Ruling& ruling : outcome.rulings) {
+    if (ruling.disagrees) outcome.disagreeing.push_back(ruling.id);
+  }
+  return outcome;
+}
+
+Outcome judge_all(const std::vector<Perspective>& perspectives) {
+  Docket docket({}, {});
+  return judge_all(docket, perspectives);
+}
+
+TEST(Docket, JudgesEachOnceAndNobodyDisagreesInACleanCapture) {
+  const auto perspectives = walk();
+  const Outcome outcome = judge_all(perspectives);
+  EXPECT_EQ(outcome.slices, 18);
+  ASSERT_EQ(outcome.rulings.size(), 18U);
+  for (const Ruling& ruling : outcome.rulings) EXPECT_GT(ruling.psnr, 22.0) << ruling.id;
+  EXPECT_TRUE(outcome.disagreeing.empty());
+}
+
+TEST(Docket, APoseThatIsOffDisagreesAndItsNeighboursDoNot) {
+  for (const double off_deg : {1.0, 1.5, 2.0}) {
+    for (const int which : {0, 1, 2}) {
+      auto perspectives = walk();
+      geometry::Pose& pose = perspectives[kMiddle].world_from_camera;
+      const double off = off_deg * kDegree;
+      if (which == 0) pose.rotation = pose.rotation * geometry::exp_so3({0.0, off, 0.0});
+      if (which == 1) pose.rotation = pose.rotation * geometry::exp_so3({off, 0.0, 0.0});
+      if (which == 2) {  // seen from S
+        pose.translation = geometry::exp_so3({0.0, off, 0.0}) * pose.translation;
+      }
+      const std::vector<int> expected{static_cast<int>(kMiddle)};
+      EXPECT_EQ(judge_all(perspectives).disagreeing, expected) << off_deg << " " << which;
+    }
+  }
+}
+
+TEST(Docket, APictureWithAnOccluderDisagrees) {
+  for (const double left : {0.35, 0.5}) {
+    auto perspectives = walk();
+    change_picture(perspectives[kMiddle], [&](std::uint8_t* pixel, int x, int y) {
+      if (x < left * 64 || x > (left + 0.2) * 64 || y < 14) return;
+      pixel[0] = 90;
+      pixel[1] = 60;
+      pixel[2] = 50;
+    });
+    EXPECT_EQ(judge_all(perspectives).disagreeing, std::vector<int>{kMiddle}) << left;
+  }
+}
+
+TEST(Docket, AnotherExposureDisagreesAStepThatLastsDoesNot) {
+  auto perspectives = walk();
+  expose(perspectives[kMiddle], 1.3);
+  EXPECT_EQ(judge_all(perspectives).disagreeing, std::vector<int>{kMiddle});
+  perspectives = walk();
+  for (std::size_t i = kMiddle; i < perspectives.size(); ++i) expose(perspectives[i], 1.15);
+  EXPECT_TRUE(judge_all(perspectives).disagreeing.empty());
+}
+
+TEST(Docket, AWipedOneIsForgottenAndOnlyThoseThatItWasAskedAboutAreJudgedAgain) {
+  auto perspectives = walk();
+  Docket docket({}, {});
+  judge_all(docket, perspectives);
+  std::size_t asked = 0;
+  for (std::size_t i = 0; i < perspectives.size(); ++i) {
+    const auto jury = jury_of(perspectives, i, kBall.center).members;
+    asked += std::ranges::find(jury, kMiddle) == jury.end() ? 0 : 1;
+  }
+  ASSERT_LT(asked, perspectives.size() - 1);
+  perspectives.erase(perspectives.begin() + kMiddle);
+  const Outcome outcome = judge_all(docket, perspectives);
+  EXPECT_EQ(outcome.slices, static_cast<int>(asked));
+  EXPECT_EQ(outcome.rulings.size(), perspectives.size());
+  EXPECT_TRUE(std::ranges::none_of(outcome.rulings,
+                                   [](const Ruling& ruling) { return ruling.id == kMiddle; }));
+}
+
+TEST(Docket, ACorrectedPoseAgreesAgainAndWhatDoesNotChangeStays) {
+  auto perspectives = walk();
+  const geometry::Pose good = perspectives[kMiddle].world_from_camera;
+  perspectives[kMiddle].world_from_camera.rotation =
+      good.rotation * geometry::exp_so3({0.0, 1.5 * kDegree, 0.0});
+  Docket docket({}, {});
+  EXPECT_FALSE(judge_all(docket, perspectives).disagreeing.empty());
+  EXPECT_EQ(judge_all(docket, perspectives).slices, 0);
+  perspectives[kMiddle].world_from_camera = good;
+  EXPECT_TRUE(judge_all(docket, perspectives).disagreeing.empty());
+}
+
+TEST(Docket, NewOnesComeBeforeThoseThatChanged) {
+  const auto perspectives = walk();
+  std::vector<Perspective> first(perspectives.begin(), perspectives.end() - 1);
+  Docket docket({}, {});
+  judge_all(docket, first);
+  docket.set(perspectives, kBall);
+  ASSERT_TRUE(docket.judge_next());
+  EXPECT_EQ(docket.rulings().back().id, perspectives.back().id);
+}
+
+TEST(Docket, FewPerspectivesAndNoSubjectInSightAreNoError) {
+  for (const int columns : {0, 1, 2}) {
+    const Outcome outcome = judge_all(walk(columns, 1));
+    EXPECT_EQ(outcome.rulings.size(), columns < 2 ? 0U : 2U);
+    EXPECT_TRUE(outcome.disagreeing.empty());
+  }
+  auto perspectives = walk(3, 1);
+  for (Perspective& p : perspectives) {
+    p.world_from_camera.rotation =
+        p.world_from_camera.rotation * geometry::exp_so3({0.0, std::numbers::pi, 0.0});
+  }
+  EXPECT_TRUE(judge_all(perspectives).rulings.empty());
+}
+
+lightfield::LightField light_field_of(const std::vector<Perspective>& perspectives) {
+  return {perspectives, kBall};
+}
+
+TEST(LiveQuality, AtOnceJudgesOneACallAndIsTheSameEachTime) {
+  const auto light_field = light_field_of(walk(4, 2));
+  LiveQuality first({}, {}, Estimating::AtOnce);
+  LiveQuality second({}, {}, Estimating::AtOnce);
+  for (std::size_t calls = 1; calls <= 8; ++calls) {
+    const CaptureQuality& quality = first.watch(light_field);
+    EXPECT_EQ(quality.psnr.size(), calls);
+    EXPECT_EQ(quality.psnr, second.watch(light_field).psnr);
+  }
+  std::vector<double> all;
+  for (const auto& [id, psnr] : first.watch(light_field).psnr) all.push_back(psnr);
+  std::ranges::sort(all);
+  EXPECT_EQ(first.watch(light_field).median_psnr, 0.5 * (all[3] + all[4]));
+}
+
+TEST(LiveQuality, MeanwhileComesToTheSame) {
+  const auto light_field = light_field_of(walk(4, 2));
+  LiveQuality at_once({}, {}, Estimating::AtOnce);
+  for (int i = 0; i < 10; ++i) at_once.watch(light_field);
+  LiveQuality meanwhile({}, {}, Estimating::Meanwhile);
+  while (meanwhile.watch(light_field).psnr.size() < 8) std::this_thread::yield();
+  EXPECT_EQ(meanwhile.watch(light_field).psnr, at_once.watch(light_field).psnr);
+}
+
+TEST(LiveQuality, TellsOnlyOfWhatIsThere) {
+  auto light_field = light_field_of(walk(4, 2));
+  LiveQuality live({}, {}, Estimating::AtOnce);
+  for (int i = 0; i < 8; ++i) live.watch(light_field);
+  light_field.wipe(3);
+  EXPECT_FALSE(live.watch(light_field).psnr.contains(3));
+  light_field.undo_wipe();
+  for (int i = 0; i < 20; ++i) live.watch(light_field);
+  EXPECT_TRUE(live.watch(light_field).psnr.contains(3));
+  // A new capture has the same ids.
+  const auto other = light_field_of(walk(4, 2));
+  EXPECT_EQ(live.watch(other).psnr.size(), 1U);
+  EXPECT_TRUE(live.watch(lightfield::LightField{}).psnr.empty());
+}
+
+TEST(LiveQuality, EndsWhileItWorks) {
+  const auto light_field = light_field_of(walk());
+  LiveQuality live({}, {}, Estimating::Meanwhile);
+  live.watch(light_field);
+}
+
+TEST(Disagreement, IsToldAgainstTheSpreadOfTheOthers) {
+  std::vector<Judged> judged;
+  for (int i = 0; i < 11; ++i) {
+    const Judgement judgement{30.0, (0.1 + 0.01 * i) * kDegree, 5.0 + i};
+    judged.push_back({judgement, judgement, 0.07});
+  }
+  config::Quality options;
+  options.least_shift_deg = 0.01;
+  options.least_difference = 1.0;
+  const auto limits = limits_of(judged, options);
+  ASSERT_TRUE(limits);
+  // Medians 0.15 degrees and 10 grey levels; median distances from there three steps.
+  EXPECT_NEAR(limits->shift, (0.15 + 5.0 * 1.4826 * 0.03) * kDegree, 1e-9);
+  EXPECT_NEAR(limits->difference, 10.0 + 5.0 * 1.4826 * 3.0, 1e-9);
+  options.least_shift_deg = 2.0;
+  EXPECT_NEAR(limits_of(judged, options)->shift, 2.0 * kDegree, 1e-12);
+
+  Judged bad{{20.0, 1.0 * kDegree, 5.0}, std::nullopt, 0.07};
+  EXPECT_TRUE(stands_out(bad, *limits));
+  EXPECT_FALSE(disagrees(bad, *limits)) << "no appeal yet";
+  bad.appeal = Judgement{20.0, 0.1 * kDegree, 5.0};
+  EXPECT_FALSE(disagrees(bad, *limits)) << "one half of the jury agrees with it";
+  bad.appeal = bad.judgement;
+  EXPECT_TRUE(disagrees(bad, *limits));
+  bad.nearest = 0.3;
+  EXPECT_FALSE(stands_out(bad, *limits)) << "nobody is near enough to tell";
+  judged.resize(5);
+  EXPECT_FALSE(limits_of(judged, options)) << "too few to have a spread";
+}
+
+TEST(Reduced, IsTheSamePictureOfASmallerCamera) {
+  const test::World world = test::textured_ball(1.0);
+  const auto pose = test::look_at({0.3, 0.2, -4.0}, {0, 0, 0});
+  const Perspective large =
+      test::photograph_perspective(7, world, test::make_camera(160, 120), pose);
+  const Perspective small = *reduced(large, 5000);
+  EXPECT_EQ(small.id, 7);
+  ASSERT_EQ(small.photo->width(), 80);
+  ASSERT_EQ(small.photo->height(), 60);
+  EXPECT_GT(psnr(*small.photo->rgb(), test::photograph(world, *small.camera, pose)), 35.0);
+  EXPECT_EQ(reduced(large, 160 * 120)->photo->rgb(), large.photo->rgb());
+}
+
+}  // namespace
+}  // namespace lumibox::render
