@@ -30,6 +30,37 @@ float cosine(double angle) {
   return static_cast<float>(std::cos(angle));
 }
 
+/// The arc between two recorded directions with nothing recorded in the cap around it.
+struct Bridge {
+  Eigen::Vector3f middle;
+  Eigen::Vector3f across;  ///< unit, perpendicular to the arc
+  float half_length;       ///< cosine
+
+  bool carries(const Eigen::Vector3f& direction, float beside) const {
+    return middle.dot(direction) >= half_length && std::abs(across.dot(direction)) <= beside;
+  }
+};
+
+/// Bridges longer than `from` and no longer than `to`, radians: edges of the Gabriel graph.
+std::vector<Bridge> bridges_between(const std::vector<Eigen::Vector3f>& recorded, double from,
+                                    double to) {
+  std::vector<Bridge> bridges;
+  for (std::size_t i = 0; i < recorded.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const float length = recorded[i].dot(recorded[j]);
+      if (length >= cosine(from) || length < cosine(std::min(to, std::numbers::pi))) continue;
+      const Eigen::Vector3f middle = (recorded[i] + recorded[j]).normalized();
+      const float half_length = middle.dot(recorded[i]);
+      const bool is_free = std::ranges::none_of(recorded, [&](const Eigen::Vector3f& other) {
+        return middle.dot(other) > half_length + 1e-6F;
+      });
+      if (!is_free) continue;
+      bridges.push_back({middle, recorded[i].cross(recorded[j]).normalized(), half_length});
+    }
+  }
+  return bridges;
+}
+
 /// Pictures that a hole of so many directions needs: its share of the sphere over that of a cap.
 int caps_of(std::size_t directions, double threshold) {
   const double share = static_cast<double>(directions) / static_cast<double>(kDirections);
@@ -61,11 +92,15 @@ void HoleFinder::see(const std::vector<Eigen::Vector3d>& directions) {
   const bool grown = nearest_.size() > 0 && seen_.size() <= directions.size() &&
                      std::equal(seen_.begin(), seen_.end(), directions.begin());
   const std::size_t first = grown ? seen_.size() : 0;
-  if (!grown) nearest_ = Eigen::ArrayXf::Constant(kDirections, -2.0F);  // farther than any
+  if (!grown) {
+    nearest_ = Eigen::ArrayXf::Constant(kDirections, -2.0F);  // farther than any
+    recorded_.clear();
+  }
   for (std::size_t i = first; i < directions.size(); ++i) {
     const double length = directions[i].norm();
     if (!(length > 0.0) || !std::isfinite(length)) continue;
     const Eigen::Vector3f unit = (directions[i] / length).cast<float>();
+    recorded_.push_back(unit);
     nearest_ = nearest_.max((unit.transpose() * even_columns_).transpose().array());
   }
   seen_ = directions;
@@ -75,26 +110,37 @@ void HoleFinder::see(const std::vector<Eigen::Vector3d>& directions) {
 std::vector<std::size_t> HoleFinder::region_farther_than(float nearest, double threshold,
                                                          double widest_gap) const {
   const double reach = std::min(0.5 * widest_gap, std::numbers::pi);
-  const float at_reach = cosine(reach);
-  const float just_beyond = cosine(std::min(reach + 1.5 * kSpacing, std::numbers::pi));
-  // Middles of empty caps. Those just beyond reach tell where all of them begin.
-  std::vector<Eigen::Vector3f> edge;
-  for (Eigen::Index i = 0; i < nearest_.size(); ++i) {
-    if (nearest_[i] < at_reach && nearest_[i] >= just_beyond) {
-      edge.emplace_back(even_columns_.col(i));
-    }
-  }
   const double half_gate = 0.5 * std::max(threshold, kFinest);
+  const std::vector<Eigen::Vector3f> empty = middles_of_empty_caps(reach);
+  const std::vector<Bridge> bridges = bridges_between(recorded_, 4.0 * half_gate, widest_gap);
   const float in_empty_cap = cosine(std::max(0.0, reach - half_gate));
+  const auto beside = static_cast<float>(std::sin(half_gate));
   std::vector<std::size_t> region;
   for (Eigen::Index i = 0; i < nearest_.size(); ++i) {
-    if (nearest_[i] < at_reach || nearest_[i] >= nearest) continue;
+    if (nearest_[i] < cosine(reach) || nearest_[i] >= nearest) continue;
     const Eigen::Vector3f direction = even_columns_.col(i);
-    const bool outside = std::ranges::any_of(
-        edge, [&](const Eigen::Vector3f& middle) { return middle.dot(direction) > in_empty_cap; });
-    if (!outside) region.push_back(static_cast<std::size_t>(i));
+    const bool surrounded = std::ranges::none_of(
+        empty, [&](const Eigen::Vector3f& middle) { return middle.dot(direction) > in_empty_cap; });
+    if (surrounded || std::ranges::any_of(bridges, [&](const Bridge& bridge) {
+          return bridge.carries(direction, beside);
+        })) {
+      region.push_back(static_cast<std::size_t>(i));
+    }
   }
   return region;
+}
+
+/// Those just beyond reach of what is recorded: they tell where all of them begin.
+std::vector<Eigen::Vector3f> HoleFinder::middles_of_empty_caps(double reach) const {
+  const float at_reach = cosine(reach);
+  const float just_beyond = cosine(std::min(reach + 1.5 * kSpacing, std::numbers::pi));
+  std::vector<Eigen::Vector3f> middles;
+  for (Eigen::Index i = 0; i < nearest_.size(); ++i) {
+    if (nearest_[i] < at_reach && nearest_[i] >= just_beyond) {
+      middles.emplace_back(even_columns_.col(i));
+    }
+  }
+  return middles;
 }
 
 std::vector<std::size_t> HoleFinder::region(const std::vector<Eigen::Vector3d>& directions,

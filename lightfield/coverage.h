@@ -39,12 +39,13 @@ struct Holes {
 /// Finds the holes between recorded directions, on a fixed set of directions that share the sphere
 /// evenly.
 ///
-/// The region that is covered, holes and all, is the morphological closing of the recorded
-/// directions (Serra, "Image Analysis and Mathematical Morphology", 1982) by a cap of half the
-/// widest gap: a direction does not belong to it if a cap of that size that holds it can be found
-/// in which nothing is recorded. So what lies between two rows of dots belongs to it, and what is
-/// beyond the first and the last one does not. It is half a gate wider, for a cap is needed to fill
-/// a gap in a single row. A hole is where the region is farther than the gate from all recorded.
+/// The region that is covered, holes and all, follows the alpha shape of the recorded directions
+/// (Edelsbrunner, Kirkpatrick and Seidel, "On the shape of a set of points in the plane", 1983),
+/// alpha half of the widest gap. A direction belongs to it where no cap of that size can be put
+/// over it that holds nothing recorded: so does what lies between two rows of dots, but not what is
+/// beyond the first and the last one. And it belongs to it between two recorded directions whose
+/// diametral cap holds no other: a gap in a single row. Both are half a gate wider. A hole is where
+/// the region is farther than the gate from all that is recorded.
 ///
 /// Gates finer than the set of directions tells (kFinest) count as that for where holes are.
 class HoleFinder {
@@ -74,9 +75,11 @@ class HoleFinder {
   void see(const std::vector<Eigen::Vector3d>& directions);
   std::vector<std::size_t> region_farther_than(float nearest, double threshold,
                                                double widest_gap) const;
+  std::vector<Eigen::Vector3f> middles_of_empty_caps(double reach) const;
 
   std::vector<Eigen::Vector3d> even_;
-  std::vector<Eigen::Vector3d> seen_;  ///< the recorded directions that nearest_ is of
+  std::vector<Eigen::Vector3d> seen_;      ///< the recorded directions that nearest_ is of
+  std::vector<Eigen::Vector3f> recorded_;  ///< the same without zero ones, unit
   Eigen::Matrix3Xf even_columns_;
   Eigen::ArrayXf nearest_;  ///< cosine of the angle to the nearest recorded one
 };

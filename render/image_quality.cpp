@@ -90,10 +90,12 @@ class MaskedPair {
   const hal::Image& mask_;
 };
 
-/// Where the parabola through values at -1, 0 and 1 is lowest; 0 if it has no lowest point.
+/// Where the parabola through values at -1, 0 and 1 is lowest, within half a step of 0; 0 if it has
+/// no lowest point.
 double lowest(double before, double at, double after) {
   const double curvature = before + after - 2.0 * at;
-  return std::isfinite(curvature) && curvature > 0.0 ? 0.5 * (before - after) / curvature : 0.0;
+  if (!std::isfinite(curvature) || curvature <= 0.0) return 0.0;
+  return std::clamp(0.5 * (before - after) / curvature, -0.5, 0.5);
 }
 
 /// Root mean square over the channels of the difference of mean in one cell; none if less than a

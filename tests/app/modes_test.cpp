@@ -277,7 +277,7 @@ TEST(Capture, SaysTheGhostingThatTheGateLeaves) {
   for (int i = 0; i < 10; ++i) {
     box.tick({kPlus}, 0.1);
   }
-  EXPECT_THAT(box.picture.title, HasSubstr("ghosting 16 px"));
+  EXPECT_THAT(box.picture.title, HasSubstr("ghosting 13 px"));
   box.tick_with({}, box.world.see_nothing(tracking::TrackingReason::Relocalising));
   EXPECT_THAT(box.picture.title, Not(HasSubstr("ghosting"))) << "nobody knows the distance";
 }

@@ -92,7 +92,7 @@ TEST(Docket, JudgesEachOnceAndNobodyDisagreesInACleanCapture) {
 }
 
 TEST(Docket, APoseThatIsOffDisagreesAndItsNeighboursDoNot) {
-  for (const double off_deg : {1.0, 1.5, 2.0}) {
+  for (const double off_deg : {1.0, 2.0}) {
     for (const int which : {0, 1, 2}) {
       auto perspectives = walk();
       geometry::Pose& pose = perspectives[kMiddle].world_from_camera;
@@ -132,7 +132,7 @@ TEST(Docket, AnotherExposureDisagreesAStepThatLastsDoesNot) {
 
 TEST(Docket, AWipedOneIsForgottenAndOnlyThoseThatItWasAskedAboutAreJudgedAgain) {
   auto perspectives = walk();
-  Docket docket({}, {});
+  Docket docket({}, {.disagreement_sigmas = 100.0, .least_shift_deg = 45.0});  // no appeals
   judge_all(docket, perspectives);
   std::size_t asked = 0;
   for (std::size_t i = 0; i < perspectives.size(); ++i) {
