@@ -9,6 +9,7 @@ namespace {
 constexpr render::Color kWhite{1.0F, 1.0F, 1.0F, 1.0F};
 constexpr render::Color kYellow{1.0F, 0.85F, 0.2F, 1.0F};
 constexpr render::Color kRed{1.0F, 0.35F, 0.3F, 1.0F};
+constexpr float kSmallest = 12.0F;    // pixels; smaller letters are not read at arm's length
 constexpr float kLetterWidth = 0.6F;  // of the size: more than the mean of any sentence
 
 }  // namespace
@@ -57,7 +58,7 @@ void Screen::draw_text(const Picture& picture) {
 
 std::vector<render::Text> text_of(const Picture& picture, int width, int height) {
   const auto bottom = static_cast<float>(height);
-  const float size = std::max(12.0F, bottom / 26.0F);
+  const float size = std::max(kSmallest, bottom / 26.0F);
   const float margin = 0.6F * size;
   const float step = 1.4F * size;  // from line to line
   const auto wrap = [&](const std::string& text, float letter_size) {
@@ -68,7 +69,7 @@ std::vector<render::Text> text_of(const Picture& picture, int width, int height)
   std::vector<render::Text> lines;
   float baseline = margin + size;
   lines.push_back({picture.title, margin, baseline, size, kWhite});
-  const float small_size = 0.8F * size;
+  const float small_size = std::max(kSmallest, 0.8F * size);
   const auto add_below = [&](const std::string& text, const render::Color& color) {
     for (const std::string& line : wrap(text, small_size)) {
       baseline += step;

@@ -44,17 +44,25 @@ struct Bridge {
 /// Bridges longer than `from` and no longer than `to`, radians: edges of the Gabriel graph.
 std::vector<Bridge> bridges_between(const std::vector<Eigen::Vector3f>& recorded, double from,
                                     double to) {
+  const float longest = cosine(std::min(to, std::numbers::pi));
+  const float shortest = cosine(std::min(from, std::numbers::pi));
   std::vector<Bridge> bridges;
+  std::size_t in_the_way = 0;  // of the pair before: often of this one too
   for (std::size_t i = 0; i < recorded.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const float length = recorded[i].dot(recorded[j]);
-      if (length >= cosine(from) || length < cosine(std::min(to, std::numbers::pi))) continue;
+      if (length >= shortest || length < longest) continue;
       const Eigen::Vector3f middle = (recorded[i] + recorded[j]).normalized();
       const float half_length = middle.dot(recorded[i]);
-      const bool is_free = std::ranges::none_of(recorded, [&](const Eigen::Vector3f& other) {
+      const auto blocks = [&](const Eigen::Vector3f& other) {
         return middle.dot(other) > half_length + 1e-6F;
-      });
-      if (!is_free) continue;
+      };
+      if (blocks(recorded[in_the_way])) continue;
+      const auto blocking = std::ranges::find_if(recorded, blocks);
+      if (blocking != recorded.end()) {
+        in_the_way = static_cast<std::size_t>(blocking - recorded.begin());
+        continue;
+      }
       bridges.push_back({middle, recorded[i].cross(recorded[j]).normalized(), half_length});
     }
   }
@@ -111,16 +119,16 @@ std::vector<std::size_t> HoleFinder::region_farther_than(float nearest, double t
                                                          double widest_gap) const {
   const double reach = std::min(0.5 * widest_gap, std::numbers::pi);
   const double half_gate = 0.5 * std::max(threshold, kFinest);
-  const std::vector<Eigen::Vector3f> empty = middles_of_empty_caps(reach);
+  const Eigen::MatrixX3f empty = middles_of_empty_caps(reach);
   const std::vector<Bridge> bridges = bridges_between(recorded_, 4.0 * half_gate, widest_gap);
+  const float at_reach = cosine(reach);
   const float in_empty_cap = cosine(std::max(0.0, reach - half_gate));
   const auto beside = static_cast<float>(std::sin(half_gate));
   std::vector<std::size_t> region;
   for (Eigen::Index i = 0; i < nearest_.size(); ++i) {
-    if (nearest_[i] < cosine(reach) || nearest_[i] >= nearest) continue;
+    if (nearest_[i] < at_reach || nearest_[i] >= nearest) continue;
     const Eigen::Vector3f direction = even_columns_.col(i);
-    const bool surrounded = std::ranges::none_of(
-        empty, [&](const Eigen::Vector3f& middle) { return middle.dot(direction) > in_empty_cap; });
+    const bool surrounded = empty.rows() == 0 || (empty * direction).maxCoeff() <= in_empty_cap;
     if (surrounded || std::ranges::any_of(bridges, [&](const Bridge& bridge) {
           return bridge.carries(direction, beside);
         })) {
@@ -131,16 +139,14 @@ std::vector<std::size_t> HoleFinder::region_farther_than(float nearest, double t
 }
 
 /// Those just beyond reach of what is recorded: they tell where all of them begin.
-std::vector<Eigen::Vector3f> HoleFinder::middles_of_empty_caps(double reach) const {
+Eigen::MatrixX3f HoleFinder::middles_of_empty_caps(double reach) const {
   const float at_reach = cosine(reach);
   const float just_beyond = cosine(std::min(reach + 1.5 * kSpacing, std::numbers::pi));
-  std::vector<Eigen::Vector3f> middles;
+  std::vector<Eigen::Index> middles;
   for (Eigen::Index i = 0; i < nearest_.size(); ++i) {
-    if (nearest_[i] < at_reach && nearest_[i] >= just_beyond) {
-      middles.emplace_back(even_columns_.col(i));
-    }
+    if (nearest_[i] < at_reach && nearest_[i] >= just_beyond) middles.push_back(i);
   }
-  return middles;
+  return even_columns_(Eigen::all, middles).transpose();
 }
 
 std::vector<std::size_t> HoleFinder::region(const std::vector<Eigen::Vector3d>& directions,

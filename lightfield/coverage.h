@@ -75,7 +75,7 @@ class HoleFinder {
   void see(const std::vector<Eigen::Vector3d>& directions);
   std::vector<std::size_t> region_farther_than(float nearest, double threshold,
                                                double widest_gap) const;
-  std::vector<Eigen::Vector3f> middles_of_empty_caps(double reach) const;
+  Eigen::MatrixX3f middles_of_empty_caps(double reach) const;
 
   std::vector<Eigen::Vector3d> even_;
   std::vector<Eigen::Vector3d> seen_;      ///< the recorded directions that nearest_ is of

@@ -50,15 +50,19 @@ void Docket::set(const std::vector<Perspective>& perspectives, const lightfield:
 bool Docket::judge_next() {
   if (const auto index = next_new()) {
     judge(*index);
-  } else if (const auto appellant = next_appeal()) {
-    Case& c = cases_[*appellant];
-    c.judged->appeal = judge_.appeal(thumbnails_, *appellant, c.jury.members, subject_);
+  } else if (const auto accused = next_accused()) {
+    changes(*accused) > 0 ? judge(*accused) : hear_appeal(*accused);
   } else if (const auto changed = next_changed()) {
     judge(*changed);
   } else {
     return false;
   }
   return true;
+}
+
+void Docket::hear_appeal(std::size_t index) {
+  Case& c = cases_[index];
+  c.judged->appeal = judge_.appeal(thumbnails_, index, c.jury.members, subject_);
 }
 
 void Docket::judge(std::size_t index) {
@@ -92,14 +96,15 @@ std::optional<std::size_t> Docket::next_new() const {
   return static_cast<std::size_t>(found - cases_.begin());
 }
 
-std::optional<std::size_t> Docket::next_appeal() const {
+std::optional<std::size_t> Docket::next_accused() const {
   const auto limits = limits_of(judged(), options_);
   if (!limits) return std::nullopt;
-  const auto found = std::ranges::find_if(cases_, [&](const Case& c) {
-    return c.judged && !c.judged->appeal && stands_out(*c.judged, *limits);
-  });
-  if (found == cases_.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - cases_.begin());
+  for (std::size_t i = 0; i < cases_.size(); ++i) {
+    const std::optional<Judged>& judged = cases_[i].judged;
+    if (!judged || !stands_out(*judged, *limits)) continue;
+    if (!judged->appeal || changes(i) > 0) return i;
+  }
+  return std::nullopt;
 }
 
 std::optional<std::size_t> Docket::next_changed() const {
@@ -129,7 +134,7 @@ std::vector<Ruling> Docket::rulings() const {
     const Case& c = cases_[i];
     if (!c.judged || std::isnan(c.judged->judgement.psnr)) continue;
     rulings.push_back({thumbnails_[i].id, c.picture, c.judged->judgement.psnr,
-                       limits && disagrees(*c.judged, *limits)});
+                       limits && disagrees(*c.judged, *limits) && changes(i) == 0});
   }
   return rulings;
 }

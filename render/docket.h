@@ -17,14 +17,15 @@ namespace lumibox::render {
 struct Ruling {
   int id = 0;
   std::weak_ptr<const lightfield::Photo> picture;
-  double psnr = 0.0;       ///< dB, see Judgement
-  bool disagrees = false;  ///< with those around it
+  double psnr = 0.0;  ///< dB, see Judgement
+  /// With those around it. Nobody is told to on evidence that has changed.
+  bool disagrees = false;
 };
 
 /// What of a light field is still to be judged, in small slices. New perspectives come first: a dot
 /// without a colour tells nothing, and the depth maps made for them serve those around them. Then
-/// appeals; then those judged before of which something has changed, the least first: most of what
-/// these need is there.
+/// those that stand out: judged again if something has changed since, or else on appeal. Then the
+/// others of which something has changed, the least first: most of what these need is there.
 class Docket {
  public:
   Docket(const config::Render& render, const config::Quality& quality);
@@ -54,9 +55,10 @@ class Docket {
 
   std::size_t changes(std::size_t index) const;
   std::optional<std::size_t> next_new() const;
-  std::optional<std::size_t> next_appeal() const;
+  std::optional<std::size_t> next_accused() const;
   std::optional<std::size_t> next_changed() const;
   void judge(std::size_t index);
+  void hear_appeal(std::size_t index);
   std::vector<Judged> judged() const;
 
   config::Quality options_;

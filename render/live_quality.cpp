@@ -48,16 +48,19 @@ LiveQuality::~LiveQuality() {
 }
 
 const CaptureQuality& LiveQuality::watch(const lightfield::LightField& light_field) {
-  if (see(light_field)) pending_ = Seen{seen_};
+  bool is_news = see(light_field);
+  if (is_news) pending_ = Seen{seen_};
   if (estimating_ == Estimating::AtOnce) {
     if (pending_) docket_.set(pending_->perspectives, pending_->subject);
     pending_.reset();
-    docket_.judge_next();
-    rulings_ = docket_.rulings();
+    if (docket_.judge_next() || is_news) {
+      rulings_ = docket_.rulings();
+      is_news = true;
+    }
   } else {
-    exchange();
+    is_news = exchange() || is_news;
   }
-  tell();
+  if (is_news) tell();
   return quality_;
 }
 
@@ -75,14 +78,17 @@ bool LiveQuality::see(const lightfield::LightField& light_field) {
 }
 
 /// Hands over what is pending, takes what there is. The thread may be put aside while it holds the
-/// lock: then that waits for the next tick, not the tick for it.
-void LiveQuality::exchange() {
+/// lock: then that waits for the next tick, not the tick for it. True if there was something.
+bool LiveQuality::exchange() {
   const std::unique_lock lock(mutex_, std::try_to_lock);
-  if (!lock) return;
-  if (handed_back_) rulings_ = *std::exchange(handed_back_, std::nullopt);
-  if (!pending_) return;
-  handed_over_ = std::exchange(pending_, std::nullopt);
-  changed_.notify_all();
+  if (!lock) return false;
+  if (pending_) {
+    handed_over_ = std::exchange(pending_, std::nullopt);
+    changed_.notify_all();
+  }
+  if (!handed_back_) return false;
+  rulings_ = *std::exchange(handed_back_, std::nullopt);
+  return true;
 }
 
 void LiveQuality::tell() {

@@ -44,7 +44,7 @@ class LiveQuality {
   };
 
   bool see(const lightfield::LightField& light_field);
-  void exchange();
+  bool exchange();
   void tell();
   void run();
 

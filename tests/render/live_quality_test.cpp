@@ -160,6 +160,23 @@ TEST(Docket, ACorrectedPoseAgreesAgainAndWhatDoesNotChangeStays) {
   EXPECT_TRUE(judge_all(docket, perspectives).disagreeing.empty());
 }
 
+TEST(Docket, NobodyIsToldToDisagreeOnEvidenceThatHasChanged) {
+  auto perspectives = walk();
+  change_picture(perspectives[kMiddle],
+                 [](std::uint8_t* pixel, int, int) { std::fill_n(pixel, 3, std::uint8_t{60}); });
+  Docket docket({}, {});
+  EXPECT_EQ(judge_all(docket, perspectives).disagreeing, std::vector<int>{kMiddle});
+  const auto disagrees = [&] {
+    return std::ranges::any_of(docket.rulings(), [](const Ruling& r) { return r.disagrees; });
+  };
+  perspectives.erase(perspectives.begin() + kMiddle + 1);
+  docket.set(perspectives, kBall);
+  EXPECT_FALSE(disagrees());
+  docket.judge_next();  // those that stand out come first
+  docket.judge_next();  // on appeal
+  EXPECT_TRUE(disagrees());
+}
+
 TEST(Docket, NewOnesComeBeforeThoseThatChanged) {
   const auto perspectives = walk();
   std::vector<Perspective> first(perspectives.begin(), perspectives.end() - 1);

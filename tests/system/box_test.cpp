@@ -144,6 +144,10 @@ TEST(Box, AWalkAroundASubjectBecomesALightFieldOnTheScreen) {
   run.until(6.3);
   EXPECT_EQ(run.loop().mode(), ModeId::Capture);
   const hal::Image live = run.screen();
+  EXPECT_NE(run.loop().picture().details.find("likeness"), std::string::npos);
+  for (const auto& dot : run.loop().picture().coverage.value().recorded) {
+    EXPECT_FALSE(dot.disagrees);
+  }
   run.until(6.8);
   EXPECT_EQ(run.loop().mode(), ModeId::Review);
   EXPECT_GE(run.views(), 8U);
