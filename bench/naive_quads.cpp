@@ -44,8 +44,9 @@ Eigen::Matrix3d clip_from_pixel(const geometry::Camera& camera) {
 
 }  // namespace
 
-NaiveQuads::NaiveQuads()
-    : program_(render::gl::make_program(kVertexShader, kFragmentShader)),
+NaiveQuads::NaiveQuads(Blending blending)
+    : format_(blending == Blending::Light ? GL_SRGB8_ALPHA8 : GL_RGBA8),
+      program_(render::gl::make_program(kVertexShader, kFragmentShader)),
       clip_from_source_(render::gl::uniform(program_, "clip_from_source")),
       last_pixel_(render::gl::uniform(program_, "last_pixel")),
       alpha_(render::gl::uniform(program_, "alpha")),
@@ -74,8 +75,8 @@ void NaiveQuads::draw(const render::View& view,
         (clip_from_pixel(view.camera) * source_from_pixel.inverse()).cast<float>();
     glBindTexture(GL_TEXTURE_2D, texture_of(perspective, settings.feather_px).name());
     glUniformMatrix3fv(clip_from_source_, 1, GL_FALSE, clip_from_source.data());
-    glUniform2f(last_pixel_, static_cast<float>(perspective.color->width() - 1),
-                static_cast<float>(perspective.color->height() - 1));
+    glUniform2f(last_pixel_, static_cast<float>(perspective.photo->width() - 1),
+                static_cast<float>(perspective.photo->height() - 1));
     glUniform1f(alpha_, static_cast<float>(layer.weight));
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   }
@@ -85,7 +86,8 @@ const render::gl::Texture& NaiveQuads::texture_of(const lightfield::Perspective&
                                                   double feather_px) {
   const auto [known, is_new] = textures_.try_emplace(perspective.id);
   if (!is_new) return known->second;
-  const hal::Image& picture = *perspective.color;
+  const std::shared_ptr<const hal::Image> pixels = perspective.photo->require_rgb();
+  const hal::Image& picture = *pixels;
   const int width = picture.width();
   const int height = picture.height();
   std::vector<std::uint8_t> rgba;
@@ -100,8 +102,8 @@ const render::gl::Texture& NaiveQuads::texture_of(const lightfield::Perspective&
   }
   known->second = render::gl::make_texture(GL_TEXTURE_2D);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
-               rgba.data());
+  glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format_), width, height, 0, GL_RGBA,
+               GL_UNSIGNED_BYTE, rgba.data());
   return known->second;
 }
 

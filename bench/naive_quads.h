@@ -11,14 +11,18 @@ namespace lumibox::bench {
 
 /// The small aperture as the text of thesis 3 draws it: each of the k pictures a quad on its proxy
 /// plane, one after the other from far to near, blended "over" by the GL, its border faded in the
-/// texture's alpha. The picture is that of render::Renderer, which this is here to be compared
-/// with.
+/// texture's alpha. Blending light, the picture is that of render::Renderer, which this is here to
+/// be compared with.
 ///
 /// Preconditions: cameras without distortion, and every proxy plane wholly before the view and its
 /// camera, as around a subject. All calls need the same current context.
 class NaiveQuads {
  public:
-  NaiveQuads();
+  enum class Blending {
+    Stored,  ///< values as they are stored, as the thesis' OpenGL did
+    Light,   ///< what they stand for; needs a framebuffer in sRGB
+  };
+  explicit NaiveQuads(Blending blending);
 
   /// Draws into `framebuffer`, which has the size of view.camera. Pictures are told by their
   /// perspective's id, uploaded when first needed, and kept.
@@ -29,6 +33,7 @@ class NaiveQuads {
   const render::gl::Texture& texture_of(const lightfield::Perspective& perspective,
                                         double feather_px);
 
+  GLenum format_;
   render::gl::Program program_;
   GLint clip_from_source_ = -1;
   GLint last_pixel_ = -1;

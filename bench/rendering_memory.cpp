@@ -81,7 +81,7 @@ class Review {
 FrameTimes measure_uploads(Review& review) {
   std::vector<double> wall_ms;
   for (Perspective perspective : review.perspectives()) {
-    perspective.color = std::make_shared<const hal::Image>(*perspective.color);
+    perspective.photo = std::make_shared<lightfield::Photo>(perspective.photo->require_rgb());
     const Stopwatch watch;
     review.renderer().upload(perspective);
     glFinish();

@@ -75,7 +75,7 @@ std::vector<Contestant> contestants(const std::vector<Perspective>& perspectives
            renderer->draw(view, perspectives, settings, framebuffer);
          }});
   }
-  const auto naive = std::make_shared<NaiveQuads>();
+  const auto naive = std::make_shared<NaiveQuads>(NaiveQuads::Blending::Stored);
   const render::Settings small =
       render::settings_from(config.render, render::Aperture::Small, focus);
   result.push_back({"naive-quads", [=](const render::View&) { return small; },

@@ -128,8 +128,8 @@ lightfield::Perspective record(const hal::Scene& scene, const Walk& walk, int id
   perspective.world_from_camera = pose.world_from_camera;
   perspective.timestamp_ns = std::llround(1e9 * pose.timestamp_s);
   perspective.camera = walk.camera;
-  perspective.color = std::make_shared<const hal::Image>(
-      scene.render_ideal(*walk.camera, pose.world_from_camera, pose.timestamp_s));
+  perspective.photo = std::make_shared<lightfield::Photo>(std::make_shared<const hal::Image>(
+      scene.render_ideal(*walk.camera, pose.world_from_camera, pose.timestamp_s)));
   return perspective;
 }
 

@@ -135,8 +135,9 @@ TEST(SimulatedCapture, RecordsThePictureThatTheSimulatorSees) {
   EXPECT_EQ(perspective.id, 4);
   EXPECT_EQ(perspective.timestamp_ns, 300'000'000);
   EXPECT_EQ(perspective.camera->width(), 48);
-  EXPECT_EQ(*perspective.color, scene->render_ideal(*walk.camera, walk.poses[9].world_from_camera,
-                                                    walk.poses[9].timestamp_s));
+  EXPECT_EQ(*perspective.photo->rgb(),
+            scene->render_ideal(*walk.camera, walk.poses[9].world_from_camera,
+                                walk.poses[9].timestamp_s));
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 #include "render/docket.h"
 #include "render/image_quality.h"
 #include "render/ray_cast.h"
-#include "support/photo.h"
 #include "render/reduced.h"
+#include "support/photo.h"
 
 namespace lumibox::render {
 namespace {
