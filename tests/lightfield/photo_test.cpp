@@ -8,6 +8,7 @@
 
 #include "hal/image_io.h"
 #include "lightfield/fixtures.h"
+#include "support/pinhole.h"
 
 namespace lumibox::lightfield {
 namespace {
@@ -131,10 +132,12 @@ TEST_F(PhotoTest, IsWhatTheFileShowsNow) {
   EXPECT_EQ(*photo_->rgb(), hal::read_image(file_));
 }
 
-// All hold what they got until everybody has it: one reading serves all.
+// All hold what they got until everybody has it: one reading serves all. A large picture, or each
+// would be read before the next thread has begun.
 TEST_F(PhotoTest, IsReadOnceForAllWhoAskTogether) {
   constexpr int kThreads = 8;
-  const Photo photo(file_, *small_camera());
+  write_text(file_, jpeg(hal::Image(1280, 960, 3)));
+  const Photo photo(file_, geometry::Camera(testing::pinhole(1280, 960, 1000.0)));
   std::vector<std::shared_ptr<const hal::Image>> got(kThreads);
   std::barrier ready(kThreads);
   std::vector<std::thread> threads;

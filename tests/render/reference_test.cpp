@@ -79,6 +79,21 @@ TEST(Reference, WideApertureBlursWhatIsOffTheFocusPlane) {
   EXPECT_LT(out_of_focus, 25.0);
 }
 
+// The nearest one: what is next takes its place.
+TEST(Reference, LeavesOutAPictureThatIsLost) {
+  auto perspectives =
+      test::random_capture(test::textured_ball(1.0), make_camera(32, 24), 4, 4.0, 0.3, 2);
+  const View view{make_camera(32, 24), perspectives[1].world_from_camera};
+  std::vector<Perspective> others = perspectives;
+  others.erase(others.begin() + 1);
+  Settings settings;
+  settings.k = 2;
+  const hal::Image without = render_reference(view, others, settings);
+  EXPECT_NE(render_reference(view, perspectives, settings), without);
+  perspectives[1].photo->stored_in("/nowhere/1.jpg");
+  EXPECT_EQ(render_reference(view, perspectives, settings), without);
+}
+
 TEST(Reference, WhatNoPerspectiveCoversIsBlack) {
   const View view{make_camera(32, 24), look_at({0, 0, -4}, {0, 0, 0})};
   const hal::Image black(32, 24, 3);
