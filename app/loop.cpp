@@ -1,5 +1,7 @@
 #include "app/loop.h"
 
+#include <fmt/core.h>
+
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -29,7 +31,7 @@ Loop::Loop(Devices& devices, const config::Config& config, std::filesystem::path
       modes_(session_, camera_),
       gestures_(config.controls.long_press_s),
       metronome_(*devices.clock, config.loop.rate_hz),
-      screen_(*devices.display, camera_, threading.estimating),
+      screen_(*devices.display, *devices.clock, camera_, threading.estimating),
       quality_(config.render, config.quality, threading.estimating) {
   if (saved) {
     resume(std::move(*saved));
@@ -59,6 +61,7 @@ void Loop::run_and_finish(const std::function<bool()>& go_on) {
 }
 
 void Loop::tick() {
+  const std::int64_t begin_ns = devices_.clock->now_ns();
   const Moment& moment = look();
   const auto gestures = gestures_.update(devices_.buttons->poll(), moment.now_ns);
   const Decision decision = modes_.decide(gestures, moment);
@@ -74,6 +77,7 @@ void Loop::tick() {
   session_.quality = quality_.watch(recorder_.light_field());
   show(modes_.draw(moment));
   ++statistics_.ticks;
+  work_ms_ = 1e-6 * static_cast<double>(devices_.clock->now_ns() - begin_ns);
 }
 
 const Moment& Loop::look() {
@@ -112,8 +116,23 @@ void Loop::show(Picture picture) {
   if (const auto error = tracker_.mapping_error()) {
     picture_.alerts.push_back("the map no longer grows: " + *error);
   }
-  screen_.draw(picture_, sight_.moment().frame);
+  if (session_.figures) {
+    picture_.figures = figures();
+  }
+  screen_.draw(picture_, sight_.moment().frame, metronome_.due_ns());
   devices_.display->present();
+}
+
+std::vector<std::string> Loop::figures() const {
+  std::vector<std::string> lines = {
+      fmt::format("tick {:.1f} of {:.1f} ms, {} of {} late", work_ms_, 1e3 / config_.loop.rate_hz,
+                  metronome_.late_ticks(), statistics_.ticks),
+      fmt::format("tracking {:.1f} ms, {} of {} frames", sight_.moment().tracking_ms,
+                  statistics_.tracked, statistics_.frames)};
+  if (!screen_.viewer_figures().empty()) {
+    lines.push_back("review: " + screen_.viewer_figures());
+  }
+  return lines;
 }
 
 void Loop::finish() {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/devices.h"
 #include "app/gestures.h"
@@ -61,6 +62,7 @@ class Loop {
   void hold_exposure(bool hold);
   void record(const Moment& moment);
   void show(Picture picture);
+  std::vector<std::string> figures() const;
 
   Devices& devices_;
   config::Config config_;
@@ -76,6 +78,7 @@ class Loop {
   render::LiveQuality quality_;
   Picture picture_;
   bool exposure_held_ = false;
+  double work_ms_ = 0.0;  ///< of the tick before
   LoopStatistics statistics_;
 };
 

@@ -16,6 +16,8 @@ class Metronome {
   /// Returns when the next tick is due.
   void wait();
 
+  std::int64_t due_ns() const { return deadline_ns_ + period_ns_; }  ///< the next tick
+
   std::int64_t late_ticks() const { return late_ticks_; }
 
  private:

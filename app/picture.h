@@ -32,6 +32,8 @@ struct Picture {
   std::string details;              ///< more numbers, below the title
   std::string advice;               ///< what the person should do now
   std::vector<std::string> alerts;  ///< what is wrong
+  /// How the box is doing, for those who asked to see it.
+  std::vector<std::string> figures;
 };
 
 }  // namespace lumibox::app

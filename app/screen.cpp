@@ -6,23 +6,30 @@
 namespace lumibox::app {
 namespace {
 
+/// Of the time to the deadline: what lies over the picture needs some too, and no two ticks are
+/// alike.
+constexpr double kBudgetShare = 0.8;
+
 constexpr render::Color kWhite{1.0F, 1.0F, 1.0F, 1.0F};
 constexpr render::Color kYellow{1.0F, 0.85F, 0.2F, 1.0F};
+constexpr render::Color kGrey{0.75F, 0.8F, 0.85F, 1.0F};
 constexpr render::Color kRed{1.0F, 0.35F, 0.3F, 1.0F};
 constexpr float kSmallest = 12.0F;    // pixels; smaller letters are not read at arm's length
 constexpr float kLetterWidth = 0.6F;  // of the size: more than the mean of any sentence
 
 }  // namespace
 
-Screen::Screen(hal::Display& display, const geometry::Camera& live, render::Estimating estimating)
+Screen::Screen(hal::Display& display, const hal::Clock& clock, const geometry::Camera& live,
+               render::Estimating estimating)
     : display_(display),
+      clock_(clock),
       live_(live),
       view_camera_(fitted_camera(live, display.width(), display.height())),
-      proxy_({}, estimating) {}
+      viewer_(clock, estimating) {}
 
-void Screen::draw(const Picture& picture, const hal::Frame& frame) {
+void Screen::draw(const Picture& picture, const hal::Frame& frame, std::int64_t deadline_ns) {
   const render::View view{view_camera_, picture.world_from_view.value_or(geometry::Pose{})};
-  draw_backdrop(picture, frame, view);
+  draw_backdrop(picture, frame, view, deadline_ns);
   const unsigned framebuffer = display_.framebuffer();
   if (picture.coverage) {
     overlay_.draw_coverage(*picture.coverage, view, framebuffer);
@@ -37,17 +44,15 @@ void Screen::draw(const Picture& picture, const hal::Frame& frame) {
 }
 
 void Screen::draw_backdrop(const Picture& picture, const hal::Frame& frame,
-                           const render::View& view) {
+                           const render::View& view, std::int64_t deadline_ns) {
   const unsigned framebuffer = display_.framebuffer();
   if (picture.light_field) {
-    const LightFieldPicture& shown = *picture.light_field;
-    renderer_.draw(view, shown.perspectives,
-                   proxy_.fit(shown.settings, shown.geometry, view, shown.perspectives),
-                   framebuffer);
+    const double left_ms = 1e-6 * static_cast<double>(deadline_ns - clock_.now_ns());
+    viewer_.draw(*picture.light_field, view, framebuffer, kBudgetShare * left_ms);
   } else if (frame.color) {
     overlay_.draw_image(*frame.color, live_, view, 1.0F, framebuffer);
   } else {
-    renderer_.draw(view, {}, render::Settings{}, framebuffer);  // black
+    viewer_.clear(view, framebuffer);
   }
 }
 
@@ -78,6 +83,7 @@ std::vector<render::Text> text_of(const Picture& picture, int width, int height)
   };
   if (!picture.details.empty()) add_below(picture.details, kWhite);
   for (const std::string& alert : picture.alerts) add_below(alert, kRed);
+  for (const std::string& figure : picture.figures) add_below(figure, kGrey);
   if (picture.advice.empty()) return lines;
   const std::vector<std::string> advice = wrap(picture.advice, size);
   baseline = bottom - margin - step * static_cast<float>(advice.size() - 1);

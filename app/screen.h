@@ -4,12 +4,11 @@
 #include <vector>
 
 #include "app/picture.h"
+#include "app/viewer.h"
 #include "geometry/camera.h"
 #include "hal/display.h"
 #include "hal/frame.h"
 #include "render/overlay.h"
-#include "render/proxy_geometry.h"
-#include "render/renderer.h"
 
 namespace lumibox::app {
 
@@ -19,23 +18,29 @@ class Screen {
  public:
   /// `live` is the camera whose pictures are shown; they fill the display as far as their shape
   /// allows.
-  Screen(hal::Display& display, const geometry::Camera& live, render::Estimating estimating);
+  Screen(hal::Display& display, const hal::Clock& clock, const geometry::Camera& live,
+         render::Estimating estimating);
 
-  /// Draws without presenting. `frame` is the newest one; its picture may be null.
-  void draw(const Picture& picture, const hal::Frame& frame);
+  /// Draws without presenting. `frame` is the newest one; its picture may be null. A light field is
+  /// drawn as well as it can be by `deadline_ns` of the clock.
+  void draw(const Picture& picture, const hal::Frame& frame, std::int64_t deadline_ns);
+
+  /// How the last light field was drawn.
+  const std::string& viewer_figures() const { return viewer_.figures(); }
 
   /// Hands a recorded picture to the GPU now, so that the tick that reviews does not pay for it.
-  void upload(const lightfield::Perspective& perspective) { renderer_.upload(perspective); }
+  void upload(const lightfield::Perspective& perspective) { viewer_.upload(perspective); }
 
  private:
-  void draw_backdrop(const Picture& picture, const hal::Frame& frame, const render::View& view);
+  void draw_backdrop(const Picture& picture, const hal::Frame& frame, const render::View& view,
+                     std::int64_t deadline_ns);
   void draw_text(const Picture& picture);
 
   hal::Display& display_;
+  const hal::Clock& clock_;
   geometry::Camera live_;
   geometry::Camera view_camera_;  ///< without distortion, of the display's size
-  render::Renderer renderer_;
-  render::ProxyGeometry proxy_;
+  Viewer viewer_;
   render::Overlay overlay_;
 };
 

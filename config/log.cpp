@@ -14,6 +14,10 @@ void set_log_level(const std::string& level) {
   spdlog::set_level(spdlog::level::from_str(level));
 }
 
+void log_info(std::string_view message) {
+  spdlog::info(message);
+}
+
 void log_warning(std::string_view message) {
   spdlog::warn(message);
 }

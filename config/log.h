@@ -13,6 +13,7 @@ void start_log();
 /// Messages below `level` (debug, info, warn, error, off) are not said.
 void set_log_level(const std::string& level);
 
+void log_info(std::string_view message);
 void log_warning(std::string_view message);
 void log_error(std::string_view message);
 

@@ -49,6 +49,10 @@ void delete_vertex_array(GLuint name) {
   glDeleteVertexArrays(1, &name);
 }
 
+void delete_framebuffer(GLuint name) {
+  glDeleteFramebuffers(1, &name);
+}
+
 Buffer make_buffer() {
   GLuint name = 0;
   glGenBuffers(1, &name);
@@ -59,6 +63,12 @@ VertexArray make_vertex_array() {
   GLuint name = 0;
   glGenVertexArrays(1, &name);
   return VertexArray(name);
+}
+
+Framebuffer make_framebuffer() {
+  GLuint name = 0;
+  glGenFramebuffers(1, &name);
+  return Framebuffer(name);
 }
 
 Texture make_texture(GLenum target) {

@@ -34,15 +34,18 @@ void delete_texture(GLuint name);
 void delete_program(GLuint name);
 void delete_shader(GLuint name);
 void delete_vertex_array(GLuint name);
+void delete_framebuffer(GLuint name);
 
 using Buffer = Object<delete_buffer>;
 using Texture = Object<delete_texture>;
 using Program = Object<delete_program>;
 using Shader = Object<delete_shader>;
 using VertexArray = Object<delete_vertex_array>;
+using Framebuffer = Object<delete_framebuffer>;
 
 Buffer make_buffer();
 VertexArray make_vertex_array();
+Framebuffer make_framebuffer();
 
 /// A texture with linear filtering, no mipmaps and clamped edges, left bound to `target`.
 Texture make_texture(GLenum target);

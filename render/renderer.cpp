@@ -71,7 +71,7 @@ class Renderer::Impl {
   }
 
   void draw(const View& view, const std::vector<Perspective>& perspectives,
-            const Settings& settings, unsigned framebuffer) {
+            const Settings& settings, unsigned framebuffer, const std::optional<Rows>& rows) {
     const Plan plan = plan_with_pictures(view, perspectives, settings);
     const std::vector<Layer>& layers = plan.layers;
     const Kind kind = fill_uniforms(plan, perspectives, view, settings);
@@ -92,6 +92,10 @@ class Renderer::Impl {
     glBindTexture(GL_TEXTURE_2D_ARRAY, cache_.texture());
     if (kind.shape) bind_shape(view, settings, variant);
     glBindVertexArray(vertex_array_.name());
+    if (rows) {
+      glEnable(GL_SCISSOR_TEST);  // gl::begin() disables it
+      glScissor(0, rows->first, view.camera.width(), rows->count);
+    }
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
 
@@ -207,8 +211,8 @@ Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
 Renderer::~Renderer() = default;
 
 void Renderer::draw(const View& view, const std::vector<Perspective>& perspectives,
-                    const Settings& settings, unsigned framebuffer) {
-  impl_->draw(view, perspectives, settings, framebuffer);
+                    const Settings& settings, unsigned framebuffer, std::optional<Rows> rows) {
+  impl_->draw(view, perspectives, settings, framebuffer, rows);
 }
 
 void Renderer::upload(const Perspective& perspective) {

@@ -1,12 +1,19 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "lightfield/perspective.h"
 #include "render/view.h"
 
 namespace lumibox::render {
+
+/// Rows of a framebuffer, counted from the bottom as GL does.
+struct Rows {
+  int first = 0;
+  int count = 0;
+};
 
 /// The light field renderer on OpenGL ES 3: one full-screen pass over a texture array with a
 /// homography per layer. All calls need the same current context, the destructor included. A GPU
@@ -19,9 +26,11 @@ class Renderer {
   Renderer& operator=(const Renderer&) = delete;
 
   /// Draws the view into `framebuffer`, which has the size of view.camera; every pixel is written.
-  /// Pictures not yet on the GPU are uploaded first; those that are lost are left out.
+  /// Pictures not yet on the GPU are uploaded first; those that are lost are left out. With `rows`
+  /// only those are written.
   void draw(const View& view, const std::vector<lightfield::Perspective>& perspectives,
-            const Settings& settings, unsigned framebuffer);
+            const Settings& settings, unsigned framebuffer,
+            std::optional<Rows> rows = std::nullopt);
 
   /// Uploads one picture ahead of its first use, so that the tick that reviews does not pay for it.
   void upload(const lightfield::Perspective& perspective);

@@ -26,6 +26,7 @@ struct Session {
   Recorder& recorder;
   double threshold = 0.0;                                ///< of the gate, radians
   std::optional<WaitingCapture> waiting = std::nullopt;  ///< in the recorder already
+  bool figures = false;                                  ///< how the box is doing is on the screen
   render::CaptureQuality quality = {};                   ///< of the light field, as far as known
 };
 

@@ -30,8 +30,10 @@ class Modes {
 
  private:
   Mode& mode(ModeId id) const { return *modes_.at(static_cast<std::size_t>(id)); }
+  bool asks_for_figures(const Gesture& gesture) const;
   void go_to(ModeId next, const Moment& moment);
 
+  Session& session_;
   std::array<std::unique_ptr<Mode>, 5> modes_;  ///< by ModeId
   ModeId current_;
   bool start_over_ = false;

@@ -1,0 +1,154 @@
+#include "app/viewer.h"
+
+#include <GLES3/gl3.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "config/log.h"
+
+namespace lumibox::app {
+namespace {
+
+using lightfield::Perspective;
+
+constexpr double kStill = 1.0;      // pixels: less is the trembling of a hand at rest
+constexpr int kTicksToRest = 5;     // a view may stand still in passing
+constexpr int kLeastRows = 8;       // of a refined view in one tick
+constexpr int kFirstBands = 8;      // until it is known how long a row takes
+constexpr double kBandShare = 0.8;  // of the budget
+constexpr int kTicksToRefineAgain = 30;
+
+bool same_perspective(const Perspective& a, const Perspective& b) {
+  return a.id == b.id && a.photo == b.photo && a.gain == b.gain &&
+         a.world_from_camera.translation == b.world_from_camera.translation &&
+         a.world_from_camera.rotation.coeffs() == b.world_from_camera.rotation.coeffs();
+}
+
+/// True if both show the same from the same view.
+bool same_picture(const LightFieldPicture& a, const LightFieldPicture& b) {
+  return a.geometry == b.geometry && a.settings.aperture == b.settings.aperture &&
+         a.settings.k == b.settings.k && a.settings.exponent == b.settings.exponent &&
+         a.settings.focus == b.settings.focus &&
+         std::ranges::equal(a.perspectives, b.perspectives, same_perspective);
+}
+
+render::View scaled(const render::View& view, double scale) {
+  config::CameraProfile c = view.camera.profile();
+  const int width = std::max(1, static_cast<int>(std::lround(scale * c.width)));
+  const int height = std::max(1, static_cast<int>(std::lround(scale * c.height)));
+  const double across = static_cast<double>(width) / c.width;
+  const double down = static_cast<double>(height) / c.height;
+  c.fx *= across;
+  c.fy *= down;
+  c.cx = across * (c.cx + 0.5) - 0.5;  // pixel centres are at integers
+  c.cy = down * (c.cy + 0.5) - 0.5;
+  c.width = width;
+  c.height = height;
+  return {geometry::Camera(c), view.world_from_camera};
+}
+
+}  // namespace
+
+double motion_px(const render::View& from, const render::View& to, const Eigen::Vector3d& focus) {
+  const double f = to.camera.profile().fx;
+  const double distance = (focus - to.world_from_camera.translation).norm();
+  const double turned =
+      from.world_from_camera.rotation.angularDistance(to.world_from_camera.rotation);
+  const double moved =
+      (from.world_from_camera.translation - to.world_from_camera.translation).norm();
+  return f * (turned + moved / std::max(distance, 1e-9));
+}
+
+Viewer::Viewer(const hal::Clock& clock, render::Estimating estimating)
+    : clock_(clock), proxy_({}, estimating) {}
+
+void Viewer::clear(const render::View& view, unsigned framebuffer) {
+  renderer_.draw(view, {}, render::Settings{}, framebuffer);
+}
+
+void Viewer::draw(const LightFieldPicture& shown, const render::View& view, unsigned framebuffer,
+                  double budget_ms) {
+  follow(shown, view);
+  const bool rests = rest_->ticks > kTicksToRest && effort_.scale < 1.0;
+  if (!rests) {
+    draw_moving(shown, view, framebuffer, budget_ms);
+    return;
+  }
+  refine(budget_ms);
+  const render::Canvas& canvas = refinement_->complete ? refined_ : moving_;
+  canvas.show(framebuffer, view.camera.width(), view.camera.height());
+}
+
+/// Whether the view rests.
+void Viewer::follow(const LightFieldPicture& shown, const render::View& view) {
+  if (rest_ && same_picture(rest_->shown, shown) &&
+      motion_px(rest_->view, view, shown.settings.focus) < kStill) {
+    ++rest_->ticks;
+    return;
+  }
+  rest_ = Rest{view, shown, 0};
+  refinement_.reset();
+}
+
+void Viewer::draw_moving(const LightFieldPicture& shown, const render::View& view,
+                         unsigned framebuffer, double budget_ms) {
+  const std::int64_t begin_ns = clock_.now_ns();
+  const render::Effort effort =
+      governor_.choose({shown.geometry, shown.settings.aperture}, budget_ms);
+  const render::View drawn = scaled(view, effort.scale);
+  const render::Settings settings = proxy_.fit(render::at_effort(shown.settings, effort),
+                                               effort.geometry, drawn, shown.perspectives);
+  if (effort.scale < 1.0) {
+    moving_.set_size(drawn.camera.width(), drawn.camera.height());
+    renderer_.draw(drawn, shown.perspectives, settings, moving_.framebuffer());
+    moving_.show(framebuffer, view.camera.width(), view.camera.height());
+  } else {
+    renderer_.draw(drawn, shown.perspectives, settings, framebuffer);
+  }
+  glFinish();  // what it takes is to be known; the next tick needs the GPU no sooner
+  governor_.measured(measure_ms(begin_ns));
+  note(effort, shown);
+}
+
+/// Draws some more of the view that rests: what it is projected onto, then row by row. When it is
+/// complete it begins again now and then, as depth maps may have come.
+void Viewer::refine(double budget_ms) {
+  const auto& [view, shown, ticks] = *rest_;
+  const int height = view.camera.height();
+  const bool again = refinement_ && refinement_->rows == height;
+  if (again && ++refinement_->ticks < kTicksToRefineAgain) return;
+  if (!refinement_ || again) {
+    refined_.set_size(view.camera.width(), height);
+    refinement_ = Refinement{proxy_.fit(shown.settings, shown.geometry, view, shown.perspectives),
+                             0, again, 0};
+    if (!again) rows_per_tick_ = std::max(kLeastRows, height / kFirstBands);
+    return;
+  }
+  const std::int64_t begin_ns = clock_.now_ns();
+  const int rows = std::min(rows_per_tick_, height - refinement_->rows);
+  renderer_.draw(view, shown.perspectives, refinement_->settings, refined_.framebuffer(),
+                 render::Rows{refinement_->rows, rows});
+  glFinish();
+  refinement_->rows += rows;
+  refinement_->complete = refinement_->complete || refinement_->rows == height;
+  const double ms = measure_ms(begin_ns);
+  const double fitting = ms > 0.0 ? rows * kBandShare * budget_ms / ms : height;
+  rows_per_tick_ = std::clamp(static_cast<int>(fitting), kLeastRows, height);
+  figures_ = fmt::format("at rest, {} of {} rows refined", refinement_->rows, height);
+}
+
+double Viewer::measure_ms(std::int64_t since_ns) const {
+  return 1e-6 * static_cast<double>(clock_.now_ns() - since_ns);
+}
+
+void Viewer::note(const render::Effort& effort, const LightFieldPicture& shown) {
+  const std::string chosen = render::description(effort, shown.settings.k);
+  if (effort != effort_) config::log_info("review is drawn with " + chosen);
+  effort_ = effort;
+  figures_ = fmt::format("{}; {:.1f} of {:.1f} ms", chosen, governor_.expected_ms(),
+                         governor_.budget_ms());
+}
+
+}  // namespace lumibox::app

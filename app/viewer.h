@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "app/picture.h"
+#include "hal/clock.h"
+#include "render/canvas.h"
+#include "render/governor.h"
+#include "render/renderer.h"
+
+namespace lumibox::app {
+
+/// Shows light fields on a framebuffer in the time there is. A view that moves is drawn with the
+/// effort that render::Governor allows; one that rests is refined to full quality in a canvas, some
+/// rows in each tick so that none is late, and shown when it is complete. On a virtual clock
+/// nothing takes time, and everything is at full quality at once. All calls need the same current
+/// context, the destructor included.
+class Viewer {
+ public:
+  Viewer(const hal::Clock& clock, render::Estimating estimating);
+
+  /// Draws `shown` from `view`, of the size of `framebuffer`, within `budget_ms` if that can be
+  /// done.
+  void draw(const LightFieldPicture& shown, const render::View& view, unsigned framebuffer,
+            double budget_ms);
+
+  /// Uploads one picture ahead of its first use.
+  void upload(const lightfield::Perspective& perspective) { renderer_.upload(perspective); }
+
+  /// Black.
+  void clear(const render::View& view, unsigned framebuffer);
+
+  /// What the last view was drawn with and what that took, for the screen's figures.
+  const std::string& figures() const { return figures_; }
+
+ private:
+  /// A view that has not moved by a pixel since it was first seen.
+  struct Rest {
+    render::View view;
+    LightFieldPicture shown;
+    int ticks = 0;
+  };
+  /// The refined view, as far as it has been drawn.
+  struct Refinement {
+    render::Settings settings;
+    int rows = 0;           ///< from the bottom
+    bool complete = false;  ///< once; what is drawn again goes over it
+    int ticks = 0;          ///< since it was complete last
+  };
+
+  void follow(const LightFieldPicture& shown, const render::View& view);
+  void draw_moving(const LightFieldPicture& shown, const render::View& view, unsigned framebuffer,
+                   double budget_ms);
+  void refine(double budget_ms);
+  double measure_ms(std::int64_t since_ns) const;
+  void note(const render::Effort& effort, const LightFieldPicture& shown);
+
+  const hal::Clock& clock_;
+  render::Renderer renderer_;
+  render::ProxyGeometry proxy_;
+  render::Governor governor_;
+  render::Effort effort_;  ///< of the last view that moved
+  render::Canvas moving_;
+  render::Canvas refined_;
+  std::optional<Rest> rest_;
+  std::optional<Refinement> refinement_;
+  int rows_per_tick_ = 0;
+  std::string figures_;
+};
+
+/// How far things at the focus and at infinity move in the picture from one view to another,
+/// pixels, about.
+double motion_px(const render::View& from, const render::View& to, const Eigen::Vector3d& focus);
+
+}  // namespace lumibox::app

@@ -1,0 +1,119 @@
+#include "render/governor.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace lumibox::render {
+namespace {
+
+constexpr Governor::Wish kMesh{Geometry::Mesh, Aperture::Small};
+constexpr Governor::Wish kWide{Geometry::Plane, Aperture::Wide};
+
+/// What a machine takes for a picture, given what full quality takes it.
+double cost_ms(const Effort& effort, double full_ms) {
+  const double pixels = effort.scale * effort.scale;
+  return full_ms * pixels * effort.k_share * (effort.geometry == Geometry::Mesh ? 1.0 : 0.5);
+}
+
+Effort run(Governor& governor, const Governor::Wish& wish, double full_ms, double budget_ms,
+           int choices) {
+  Effort effort;
+  for (int i = 0; i < choices; ++i) {
+    effort = governor.choose(wish, budget_ms);
+    governor.measured(cost_ms(effort, full_ms));
+  }
+  return effort;
+}
+
+TEST(Governor, BeginsWithAllOfIt) {
+  Governor governor;
+  EXPECT_EQ(governor.choose(kMesh, 10.0), (Effort{Geometry::Mesh, 1.0, 1.0}));
+}
+
+TEST(Governor, StaysWithAllOfItWhileThatFits) {
+  Governor governor;
+  EXPECT_EQ(run(governor, kMesh, 9.9, 10.0, 100), (Effort{Geometry::Mesh, 1.0, 1.0}));
+}
+
+// Costs double from one choice to the next at most once: one late picture, not several.
+TEST(Governor, OneSlowPictureIsEnough) {
+  Governor governor;
+  run(governor, kMesh, 40.0, 15.0, 1);
+  const Effort next = governor.choose(kMesh, 15.0);
+  EXPECT_LT(cost_ms(next, 40.0), 15.0);
+  EXPECT_EQ(next.geometry, Geometry::Mesh);
+}
+
+TEST(Governor, WithTooLittleTimeForAnythingItDrawsTheCheapest) {
+  Governor governor;
+  const Effort effort = run(governor, kWide, 1e6, 1.0, 20);
+  EXPECT_EQ(effort, (Effort{Geometry::Plane, 0.35, 0.25}));
+  EXPECT_EQ(run(governor, kWide, 1e6, 0.0, 20), effort) << "no time at all";
+}
+
+TEST(Governor, WhatDelayedItIsForgotten) {
+  Governor governor;
+  EXPECT_LT(run(governor, kMesh, 100.0, 15.0, 30).scale, 1.0);
+  // 40 s at 30 a second: from 100 ms to a room of 12 costs halve three times, in ten seconds each.
+  EXPECT_EQ(run(governor, kMesh, 5.0, 15.0, 1200), (Effort{Geometry::Mesh, 1.0, 1.0}));
+}
+
+TEST(Governor, ApertureAndShapeAreLearnedApart) {
+  Governor governor;
+  run(governor, kMesh, 100.0, 15.0, 30);
+  EXPECT_EQ(governor.choose(kWide, 15.0), (Effort{Geometry::Plane, 1.0, 1.0}));
+}
+
+TEST(Governor, FocalPlanesStayFocal) {
+  Governor governor;
+  EXPECT_EQ(run(governor, {Geometry::Focal, Aperture::Small}, 100.0, 15.0, 30).geometry,
+            Geometry::Focal);
+}
+
+TEST(Governor, SaysWhatItChose) {
+  EXPECT_EQ(description({Geometry::Mesh, 0.71, 1.0}, 8), "shape, 0.71 of the size, 8 views");
+  EXPECT_EQ(at_effort({}, {Geometry::Plane, 1.0, 0.5}).k, 20);
+  Settings one;
+  one.k = 1;
+  EXPECT_EQ(at_effort(one, {Geometry::Plane, 1.0, 0.25}).k, 1) << "never none";
+}
+
+RC_GTEST_PROP(GovernorProperties, KeepsWithinTheBudgetWhereThatCanBeDone, ()) {
+  const Governor::Wish wish = *rc::gen::element(kMesh, kWide);
+  const double full_ms = *rc::gen::inRange(1, 200);
+  const double budget_ms = *rc::gen::inRange(5, 40);
+  Governor governor;
+  run(governor, wish, full_ms, budget_ms, 20);
+  int over = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double cost = cost_ms(run(governor, wish, full_ms, budget_ms, 1), full_ms);
+    over += cost > budget_ms ? 1 : 0;
+  }
+  const double least = wish.aperture == Aperture::Wide ? full_ms * 0.35 * 0.35 * 0.25 * 0.5
+                                                       : full_ms * 0.35 * 0.35 * 0.5;
+  RC_PRE(least < budget_ms);
+  RC_ASSERT(over <= 3);  // what is better is tried again now and then
+}
+
+RC_GTEST_PROP(GovernorProperties, DoesNotChangeBackAndForth, ()) {
+  const double full_ms = *rc::gen::inRange(1, 200);
+  const std::vector<int> noise =
+      *rc::gen::container<std::vector<int>>(300, rc::gen::inRange(-10, 11));
+  Governor governor;
+  run(governor, kMesh, full_ms, 15.0, 20);
+  int changes = 0;
+  Effort before = governor.choose(kMesh, 15.0);
+  for (const int percent : noise) {
+    const Effort effort = governor.choose(kMesh, 15.0);
+    governor.measured(cost_ms(effort, full_ms) * (1.0 + 0.01 * percent));
+    changes += effort == before ? 0 : 1;
+    before = effort;
+  }
+  RC_ASSERT(changes <= 8);  // in ten seconds
+}
+
+}  // namespace
+}  // namespace lumibox::render
