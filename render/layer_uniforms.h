@@ -30,6 +30,9 @@ struct Kind {
   bool one_camera = false;
 
   static constexpr std::size_t kCount = 32;
+  /// Whether it is known which part of the view each layer covers (tiles.h).
+  bool tiles() const { return !shape && !distortion && !horizon; }
+
   std::size_t index() const {
     return (small_aperture ? 16U : 0U) + (shape ? 8U : 0U) + (distortion ? 4U : 0U) +
            (horizon ? 2U : 0U) + (one_camera ? 1U : 0U);

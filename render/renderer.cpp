@@ -12,6 +12,7 @@
 #include "render/map_cache.h"
 #include "render/picture_cache.h"
 #include "render/shader_source.h"
+#include "render/tiles.h"
 
 namespace lumibox::render {
 namespace {
@@ -28,6 +29,8 @@ struct Variant {
   GLint stop = -1;
   GLint cells = -1;
   GLint map_texel_size = -1;
+  GLint tile_size = -1;
+  GLint tiles_across = -1;
 
   explicit Variant(const Kind& kind) {
     std::string prelude = "#define MAX_LAYERS " + std::to_string(kMaxLayers) + "\n";
@@ -35,6 +38,9 @@ struct Variant {
     if (kind.distortion) prelude += "#define DISTORTION\n";
     if (kind.horizon) prelude += "#define HORIZON\n";
     if (kind.one_camera) prelude += "#define ONE_CAMERA\n";
+    if (kind.tiles()) {
+      prelude += "#define TILES\n#define END_OF_LIST " + std::to_string(Tiles::kEnd) + "\n";
+    }
     if (kind.shape) {
       prelude += "#define SHAPE\n#define FARTHER_PENALTY " + std::to_string(kFartherPenalty) +
                  "\n#define LEAST_PENALTY " + std::to_string(kLeastPenalty) + "\n#define BEFORE " +
@@ -52,6 +58,11 @@ struct Variant {
     glUniformBlockBinding(program.name(), glGetUniformBlockIndex(program.name(), "Layers"), 0);
     glUseProgram(program.name());
     glUniform1i(gl::uniform(program, "pictures"), 0);
+    if (kind.tiles()) {
+      tile_size = gl::uniform(program, "tile_size");
+      tiles_across = gl::uniform(program, "tiles_across");
+      glUniform1i(gl::uniform(program, "lists"), 3);
+    }
     if (kind.shape) {
       cells = gl::uniform(program, "cells");
       map_texel_size = gl::uniform(program, "map_texel_size");
@@ -74,7 +85,8 @@ class Renderer::Impl {
             const Settings& settings, unsigned framebuffer, const std::optional<Rows>& rows) {
     const Plan plan = plan_with_pictures(view, perspectives, settings);
     const std::vector<Layer>& layers = plan.layers;
-    const Kind kind = fill_uniforms(plan, perspectives, view, settings);
+    const LayerData data = fill_uniforms(plan, perspectives, view, settings);
+    const Kind& kind = data.kind;
 
     gl::begin(framebuffer, view.camera.width(), view.camera.height(), gl::Blend::Replace);
     const Variant& variant = variant_for(kind);
@@ -91,6 +103,7 @@ class Renderer::Impl {
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D_ARRAY, cache_.texture());
     if (kind.shape) bind_shape(view, settings, variant);
+    if (kind.tiles()) bind_tiles(tiles_of(view, data), variant);
     glBindVertexArray(vertex_array_.name());
     if (rows) {
       glEnable(GL_SCISSOR_TEST);  // gl::begin() disables it
@@ -145,8 +158,8 @@ class Renderer::Impl {
   }
 
   /// Brings the layers' data to the GPU, with the depth maps that are not there.
-  Kind fill_uniforms(const Plan& plan, const std::vector<Perspective>& perspectives,
-                     const View& view, const Settings& settings) {
+  LayerData fill_uniforms(const Plan& plan, const std::vector<Perspective>& perspectives,
+                          const View& view, const Settings& settings) {
     std::vector<LayerSlots> slots;
     if (settings.shape) {
       std::vector<const DepthMap*> maps;
@@ -161,12 +174,12 @@ class Renderer::Impl {
       slots.back().map = map.index;
       if (map.largest > 0.0) slots.back().largest_map = map.largest;
     }
-    const LayerData data = layer_data(view, perspectives, settings, plan.layers, slots);
+    LayerData data = layer_data(view, perspectives, settings, plan.layers, slots);
     glBindBuffer(GL_UNIFORM_BUFFER, uniforms_.name());
     glBufferSubData(GL_UNIFORM_BUFFER, 0,
                     static_cast<GLsizeiptr>(data.layers.size() * sizeof(LayerUniforms)),
                     data.layers.data());
-    return data.kind;
+    return data;
   }
 
   void bind_shape(const View& view, const Settings& settings, const Variant& variant) {
@@ -192,6 +205,24 @@ class Renderer::Impl {
     glActiveTexture(GL_TEXTURE0);
   }
 
+  void bind_tiles(const Tiles& tiles, const Variant& variant) {
+    glActiveTexture(GL_TEXTURE3);
+    if (lists_.name() == 0) {
+      lists_ = gl::make_texture(GL_TEXTURE_2D);
+      // Whole numbers are not filtered.
+      glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+      glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    }
+    glBindTexture(GL_TEXTURE_2D, lists_.name());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8UI, static_cast<GLsizei>(tiles.row),
+                 tiles.across * tiles.down, 0, GL_RED_INTEGER, GL_UNSIGNED_BYTE,
+                 tiles.lists.data());
+    glUniform1i(variant.tile_size, tiles.size);
+    glUniform1i(variant.tiles_across, tiles.across);
+    glActiveTexture(GL_TEXTURE0);
+  }
+
   /// Compiled when first needed.
   const Variant& variant_for(const Kind& kind) {
     std::optional<Variant>& variant = variants_[kind.index()];
@@ -204,6 +235,7 @@ class Renderer::Impl {
   PictureCache cache_;
   MapCache maps_;
   gl::Texture shape_;  ///< inverse depths of the view drawn last
+  gl::Texture lists_;  ///< of the tiles of the view drawn last
   std::array<std::optional<Variant>, Kind::kCount> variants_;
 };
 

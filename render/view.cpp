@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <tuple>
 
 #include "render/blending.h"
 #include "render/depth_grid.h"
@@ -82,29 +83,51 @@ Layer make_turned_layer(const View& view, const lightfield::Perspective& perspec
   return layer;
 }
 
-/// Candidates of a view in order of increasing penalty. The penalty (figure 2.2) is measured at the
-/// point that the planes pass through: thesis 3 has one S for both.
-std::vector<Layer> visible_layers(const View& view,
-                                  const std::vector<lightfield::Perspective>& perspectives,
-                                  const Settings& settings) {
-  const Eigen::Vector3d& focus = settings.focus;
-  std::vector<Layer> layers;
+/// A perspective by its penalty (figure 2.2), which is measured at the point that the planes pass
+/// through: thesis 3 has one S for both.
+struct Candidate {
+  double penalty;
+  int id;
+  std::size_t index;
+
+  bool operator<(const Candidate& other) const {
+    return std::tie(penalty, id) < std::tie(other.penalty, other.id);
+  }
+};
+
+std::vector<Candidate> candidates_of(const View& view,
+                                     const std::vector<lightfield::Perspective>& perspectives,
+                                     const Eigen::Vector3d& focus) {
+  std::vector<Candidate> candidates;
   const Eigen::Vector3d towards_view = view.world_from_camera.translation - focus;
   for (std::size_t i = 0; i < perspectives.size(); ++i) {
     const lightfield::Perspective& perspective = perspectives[i];
     if (!perspective.can_be_shown()) continue;
+    candidates.push_back(
+        {geometry::angle_between(towards_view, perspective.center() - focus), perspective.id, i});
+  }
+  std::sort(candidates.begin(), candidates.end());
+  return candidates;
+}
+
+/// The first `count` layers that can be seen, in order of increasing penalty.
+std::vector<Layer> visible_layers(const View& view,
+                                  const std::vector<lightfield::Perspective>& perspectives,
+                                  const Settings& settings, std::size_t count) {
+  std::vector<Layer> layers;
+  for (const Candidate& candidate : candidates_of(view, perspectives, settings.focus)) {
+    if (layers.size() == count) break;
+    const lightfield::Perspective& perspective = perspectives[candidate.index];
     std::optional<Layer> layer = settings.shape ? make_turned_layer(view, perspective)
-                                                : make_layer(view, perspective, focus);
+                                                : make_layer(view, perspective, settings.focus);
     if (!layer) continue;
-    layer->perspective = i;
-    if (settings.shape && i < settings.shape->maps.size()) layer->map = settings.shape->maps[i];
-    layer->penalty = geometry::angle_between(towards_view, perspective.center() - focus);
+    layer->perspective = candidate.index;
+    layer->penalty = candidate.penalty;
+    if (settings.shape && candidate.index < settings.shape->maps.size()) {
+      layer->map = settings.shape->maps[candidate.index];
+    }
     layers.push_back(*layer);
   }
-  std::sort(layers.begin(), layers.end(), [&perspectives](const Layer& a, const Layer& b) {
-    if (a.penalty != b.penalty) return a.penalty < b.penalty;
-    return perspectives[a.perspective].id < perspectives[b.perspective].id;
-  });
   return layers;
 }
 
@@ -157,8 +180,8 @@ Settings augmented_settings_from(const config::Render& options, const Eigen::Vec
 std::vector<Layer> plan_view(const View& view,
                              const std::vector<lightfield::Perspective>& perspectives,
                              const Settings& settings) {
-  std::vector<Layer> layers = visible_layers(view, perspectives, settings);
   const std::size_t k = std::min(static_cast<std::size_t>(std::max(settings.k, 0)), kMaxLayers);
+  std::vector<Layer> layers = visible_layers(view, perspectives, settings, k + 1);
   std::optional<double> first_left_out;
   if (layers.size() > k) {
     first_left_out = layers[k].penalty;

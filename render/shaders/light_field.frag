@@ -3,7 +3,8 @@
 // otherwise the layers' weighted mean. SHAPE where pictures are projected onto the scene's shape
 // instead of planes; DISTORTION where any source has a lens that distorts; HORIZON where something
 // that a ray meets may lie behind the view or a source; ONE_CAMERA where all sources have the same
-// camera. What is not needed is not loaded: on a software GPU loads are a third of the time.
+// camera; TILES where each tile of the view has a list of the layers that show something there.
+// What is not needed is not loaded: on a software GPU loads are a third of the time.
 
 struct Layer {
   // Source = (from_x * x + from_y * y + from_1).xyz at a fragment's place from the middle of the
@@ -30,6 +31,11 @@ uniform vec2 texel_size;           // 1 / size of the texture array
 uniform float least_total_weight;  // smallest divisor of a mean
 uniform float stop;                // small aperture: transmittance at which a pixel is done
 uniform sampler2DArray pictures;
+#ifdef TILES
+uniform highp usampler2D lists;  // one in each row, ended by END_OF_LIST
+uniform int tile_size;
+uniform int tiles_across;
+#endif
 #ifdef SHAPE
 uniform sampler2D inverse_depths;  // at the corners of cells
 uniform vec4 cells;                // texture coordinates = gl_FragCoord.xy * cells.xy + cells.zw
@@ -134,7 +140,14 @@ void main() {
   float near_total = 0.0;
 #endif
   use_camera_of(0);
+#ifdef TILES
+  ivec2 tile = ivec2(gl_FragCoord.xy) / tile_size;
+  for (int j = 0;; ++j) {
+    int i = int(texelFetch(lists, ivec2(j, tile.y * tiles_across + tile.x), 0).r);
+    if (i == END_OF_LIST) break;
+#else
   for (int i = 0; i < layer_count; ++i) {
+#endif
 #ifndef ONE_CAMERA
     use_camera_of(i);
 #endif
@@ -148,7 +161,11 @@ void main() {
       sum += transmittance * weight * light;
       transmittance *= 1.0 - weight;
     }
-    if (transmittance <= stop) break;
+    if (transmittance <= stop) {
+      // What lies behind is thought to look like what lies before.
+      sum /= 1.0 - transmittance;
+      break;
+    }
 #else
     if (weight > 0.0) {
       sum += near * weight * light;
