@@ -13,9 +13,11 @@ namespace {
 
 using lightfield::Perspective;
 
-constexpr std::size_t kMembers = 8;  // of a jury: as many as a picture on a shape is made of
-constexpr int kReachShare = 10;      // a shift is looked for up to a tenth of the subject's width
-constexpr int kLeastReach = 3;       // pixels
+constexpr std::size_t kMembers = 8;    // of a jury: as many as a picture on a shape is made of
+constexpr int kReachShare = 10;        // a shift is looked for up to a tenth of the subject's width
+constexpr double kFeatherShare = 0.1;  // of the height: what render.feather_px is of 480 rows
+constexpr double kLeastCovered = 0.5;  // of the subject, for shift and difference
+constexpr int kLeastReach = 3;         // pixels
 
 /// The perspectives with the pictures of those alone that count; indices stay.
 std::vector<Perspective> only(const std::vector<Perspective>& perspectives,
@@ -38,6 +40,24 @@ hal::Image cut_out(const hal::Image& image, const Box& box) {
     std::copy_n(image.at(box.left, box.top + y), part.stride(), part.row(y));
   }
   return part;
+}
+
+/// Where a mask is and a rendered picture shows something: what nobody covers is black, and tells
+/// nothing of pose or occluders.
+hal::Image where_shown(const hal::Image& picture, hal::Image mask) {
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      const std::uint8_t* pixel = picture.at(x, y);
+      if (pixel[0] == 0 && pixel[1] == 0 && pixel[2] == 0) *mask.at(x, y) = 0;
+    }
+  }
+  return mask;
+}
+
+double count_of(const hal::Image& mask) {
+  const std::uint8_t* const end = mask.data() + mask.size_bytes();
+  return static_cast<double>(
+      std::count_if(mask.data(), end, [](auto value) { return value != 0; }));
 }
 
 /// What of a photograph shows the subject; none if nothing does.
@@ -81,12 +101,18 @@ Judgement Judge::judge(const std::vector<Perspective>& perspectives, std::size_t
   if (!photograph || jury.empty()) return {};
   const auto& [view, truth, on_subject] = *photograph;
   settings_.focus = subject.center;
+  settings_.feather_px = kFeatherShare * perspectives[index].camera->height();
   const Settings settings = proxy_.fit(settings_, geometry_, view, perspectives, jury);
   const hal::Image picture = render_reference(view, only(perspectives, jury), settings);
+  Judgement judgement;
+  judgement.psnr = psnr(picture, truth.color, &on_subject);
+  const hal::Image covered = where_shown(picture, on_subject);
+  if (count_of(covered) < kLeastCovered * count_of(on_subject)) return judgement;
   const int reach = std::max(kLeastReach, view.camera.width() / kReachShare);
-  const Eigen::Vector2d shift = shift_between(truth.color, picture, on_subject, reach);
-  return {psnr(picture, truth.color, &on_subject), shift.norm() / view.camera.profile().fx,
-          patch_difference(picture, truth.color, on_subject)};
+  judgement.shift =
+      shift_between(truth.color, picture, covered, reach).norm() / view.camera.profile().fx;
+  judgement.difference = patch_difference(picture, truth.color, covered);
+  return judgement;
 }
 
 Judgement Judge::appeal(const std::vector<Perspective>& perspectives, std::size_t index,

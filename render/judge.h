@@ -17,7 +17,7 @@ namespace lumibox::render {
 inline constexpr int kThumbnail = 9000;
 
 /// How a perspective's picture differs, on the subject, from what others say its view looks like;
-/// NaN where there was nothing to compare.
+/// NaN where there was nothing to compare. What nobody else covers counts for the PSNR alone.
 struct Judgement {
   double psnr = std::numeric_limits<double>::quiet_NaN();  ///< dB
   /// By which angle it lies beside where the others have it, radians: a wrong pose.

@@ -40,6 +40,10 @@ std::vector<Perspective> walk(int columns = 6, int rows = 3) {
   return perspectives;
 }
 
+/// Nobody stands out.
+constexpr config::Quality kNoAppeals{
+    .disagreement_sigmas = 100.0, .least_shift_deg = 45.0, .least_difference = 255.0};
+
 constexpr std::size_t kMiddle = 8;  // of walk(): with others all around
 
 template <typename Change>
@@ -84,8 +88,9 @@ Outcome judge_all(const std::vector<Perspective>& perspectives) {
 
 TEST(Docket, JudgesEachOnceAndNobodyDisagreesInACleanCapture) {
   const auto perspectives = walk();
+  Docket without_appeals({}, kNoAppeals);
+  EXPECT_EQ(judge_all(without_appeals, perspectives).slices, 18);
   const Outcome outcome = judge_all(perspectives);
-  EXPECT_EQ(outcome.slices, 18);
   ASSERT_EQ(outcome.rulings.size(), 18U);
   for (const Ruling& ruling : outcome.rulings) EXPECT_GT(ruling.psnr, 22.0) << ruling.id;
   EXPECT_TRUE(outcome.disagreeing.empty());
@@ -130,9 +135,32 @@ TEST(Docket, AnotherExposureDisagreesAStepThatLastsDoesNot) {
   EXPECT_TRUE(judge_all(perspectives).disagreeing.empty());
 }
 
+// All others look aside, so that their pictures end within the ball.
+TEST(Judge, WhatNobodyElseCoversSaysNothingAboutThePose) {
+  auto perspectives = walk();
+  for (Perspective& p : perspectives) {
+    if (p.id == static_cast<int>(kMiddle)) continue;
+    p = test::photograph_perspective(p.id, test::textured_ball(1.0), *p.camera,
+                                     test::look_at(p.center(), {1.6, 0.0, 0.0}));
+  }
+  Judge judge({});
+  const auto jury = jury_of(perspectives, kMiddle, kBall.center).members;
+  const Judgement aside = judge.judge(perspectives, kMiddle, jury, kBall);
+  EXPECT_LT(aside.psnr, 18.0) << "but it is seen";
+  EXPECT_LT(aside.shift, 0.5 * kDegree);
+  EXPECT_LT(aside.difference, 12.0);
+  for (Perspective& p : perspectives) {
+    if (p.id == static_cast<int>(kMiddle)) continue;
+    p = test::photograph_perspective(p.id, test::textured_ball(1.0), *p.camera,
+                                     test::look_at(p.center(), {3.5, 0.0, 0.0}));
+  }
+  Judge another({});
+  EXPECT_TRUE(std::isnan(another.judge(perspectives, kMiddle, jury, kBall).shift));
+}
+
 TEST(Docket, AWipedOneIsForgottenAndOnlyThoseThatItWasAskedAboutAreJudgedAgain) {
   auto perspectives = walk();
-  Docket docket({}, {.disagreement_sigmas = 100.0, .least_shift_deg = 45.0});  // no appeals
+  Docket docket({}, kNoAppeals);
   judge_all(docket, perspectives);
   std::size_t asked = 0;
   for (std::size_t i = 0; i < perspectives.size(); ++i) {
@@ -172,8 +200,8 @@ TEST(Docket, NobodyIsToldToDisagreeOnEvidenceThatHasChanged) {
   perspectives.erase(perspectives.begin() + kMiddle + 1);
   docket.set(perspectives, kBall);
   EXPECT_FALSE(disagrees());
-  docket.judge_next();  // those that stand out come first
-  docket.judge_next();  // on appeal
+  while (docket.judge_next()) {
+  }
   EXPECT_TRUE(disagrees());
 }
 
