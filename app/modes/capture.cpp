@@ -87,7 +87,7 @@ std::string CaptureMode::title(const Moment& moment) const {
 std::string CaptureMode::details() const {
   std::string details = likeness(session_);
   if (holes_.missing > 0) {
-    details += fmt::format("{}{} more for the holes", details.empty() ? "" : "   ", holes_.missing);
+    details += fmt::format("{}{} missing", details.empty() ? "" : "   ", holes_.missing);
   }
   return details;
 }

@@ -91,7 +91,7 @@ std::string ReviewMode::advice(const Moment& moment) const {
     return advice;
   }
   if (steering_ == Steering::Stand && std::ranges::binary_search(disagreeing, stand_)) {
-    return fmt::format("view {} does not fit: Wipe removes it; hold Review for the next", stand_);
+    return fmt::format("view {} does not fit: Wipe it, or hold Review", stand_);
   }
   if (disagreeing.empty()) {
     return {};

@@ -293,7 +293,7 @@ TEST(Capture, PointsToTheHoleUntilItIsFilled) {
     box.tick({kWipe});  // and recording pauses
   }
   box.tick({}, -25.0 * kDegree);
-  EXPECT_THAT(box.picture.details, HasSubstr("more for the holes"));
+  EXPECT_THAT(box.picture.details, HasSubstr("missing"));
   ASSERT_TRUE(box.picture.way);
   EXPECT_LT(box.picture.way->x(), -0.9) << "around_subject() goes to the left";
   ASSERT_TRUE(box.picture.coverage->hole);
@@ -409,7 +409,7 @@ TEST(Review, GoesToTheViewsThatDisagreeOneAfterTheOtherAndWipesThem) {
     box.tick({}, 0.3);
     EXPECT_EQ(box.picture.world_from_view->translation, center_of(expected)) << "it stays there";
   }
-  EXPECT_EQ(box.picture.advice, "view 2 does not fit: Wipe removes it; hold Review for the next");
+  EXPECT_EQ(box.picture.advice, "view 2 does not fit: Wipe it, or hold Review");
   const std::size_t recorded = box.views();
   box.tick({kWipe}, 0.2);
   EXPECT_EQ(box.views(), recorded - 1);

@@ -35,7 +35,7 @@ TEST(TextOf, APictureFitsTheDisplayWhateverItSays) {
   Picture picture;
   picture.title = "aim at the subject";
   for (int i = 0; i < 30; ++i) picture.advice += "words ";
-  picture.details = "likeness 27.4 dB of 61   12 more for the holes";
+  picture.details = "likeness 27.4 dB of 61   12 missing";
   picture.alerts = {picture.advice};
   const std::vector<render::Text> lines = text_of(picture, 640, 480);
   EXPECT_EQ(lines[1].utf8, picture.details);
