@@ -20,8 +20,10 @@ double beyond(const std::vector<double>& values, double sigmas) {
   return middle + sigmas * geometry::mad_sigma(residuals);
 }
 
-bool beyond(const Judgement& judgement, const Limits& limits) {
-  return judgement.shift > limits.shift || judgement.difference > limits.difference;
+/// The worse figure in units of its limit; 0 if neither could be told.
+double excess(const Judgement& judgement, const Limits& limits) {
+  return std::fmax(
+      0.0, std::fmax(judgement.shift / limits.shift, judgement.difference / limits.difference));
 }
 
 }  // namespace
@@ -45,11 +47,11 @@ std::optional<Limits> limits_of(std::span<const Judged> judged, const config::Qu
 }
 
 bool stands_out(const Judged& judged, const Limits& limits) {
-  return judged.nearest <= limits.lonely && beyond(judged.judgement, limits);
+  return judged.nearest <= limits.lonely && excess(judged.judgement, limits) > 1.0;
 }
 
-bool disagrees(const Judged& judged, const Limits& limits) {
-  return stands_out(judged, limits) && judged.appeal && beyond(*judged.appeal, limits);
+double severity(const Judged& judged, const Limits& limits) {
+  return stands_out(judged, limits) && judged.appeal ? excess(*judged.appeal, limits) : 0.0;
 }
 
 }  // namespace lumibox::render

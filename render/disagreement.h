@@ -30,7 +30,12 @@ std::optional<Limits> limits_of(std::span<const Judged> judged, const config::Qu
 /// True if a judgement is beyond the limits and an appeal would tell.
 bool stands_out(const Judged& judged, const Limits& limits);
 
-/// True if the appeal is beyond the limits too.
-bool disagrees(const Judged& judged, const Limits& limits);
+/// How many times as large as the limits the appeal is, by the worse figure; 0 for what does not
+/// stand out or has not been heard. Above 1 it disagrees too.
+double severity(const Judged& judged, const Limits& limits);
+
+/// A picture that disagrees is excused if one of its jury does so much more severely, by this
+/// factor: that one is the likely cause, and it is told first.
+inline constexpr double kCause = 2.0;
 
 }  // namespace lumibox::render

@@ -128,15 +128,28 @@ std::vector<Judged> Docket::judged() const {
 }
 
 std::vector<Ruling> Docket::rulings() const {
-  const auto limits = limits_of(judged(), options_);
+  const std::vector<double> severities = this->severities();
   std::vector<Ruling> rulings;
   for (std::size_t i = 0; i < cases_.size(); ++i) {
     const Case& c = cases_[i];
     if (!c.judged || std::isnan(c.judged->judgement.psnr)) continue;
-    rulings.push_back({thumbnails_[i].id, c.picture, c.judged->judgement.psnr,
-                       limits && disagrees(*c.judged, *limits) && changes(i) == 0});
+    const bool is_excused = std::ranges::any_of(c.jury.members, [&](std::size_t member) {
+      return severities[member] > kCause * severities[i];
+    });
+    const bool disagrees = severities[i] > 1.0 && !is_excused && changes(i) == 0;
+    rulings.push_back({thumbnails_[i].id, c.picture, c.judged->judgement.psnr, disagrees});
   }
   return rulings;
+}
+
+/// Of all perspectives; 0 for those that are not judged.
+std::vector<double> Docket::severities() const {
+  std::vector<double> severities(cases_.size(), 0.0);
+  const auto limits = limits_of(judged(), options_);
+  for (std::size_t i = 0; limits && i < cases_.size(); ++i) {
+    if (cases_[i].judged) severities[i] = severity(*cases_[i].judged, *limits);
+  }
+  return severities;
 }
 
 }  // namespace lumibox::render

@@ -60,6 +60,7 @@ class Docket {
   void judge(std::size_t index);
   void hear_appeal(std::size_t index);
   std::vector<Judged> judged() const;
+  std::vector<double> severities() const;
 
   config::Quality options_;
   Judge judge_;

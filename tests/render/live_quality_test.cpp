@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <thread>
+#include <utility>
 
 #include "geometry/rotation.h"
 #include "render/docket.h"
@@ -111,6 +112,30 @@ TEST(Docket, APoseThatIsOffDisagreesAndItsNeighboursDoNot) {
       EXPECT_EQ(judge_all(perspectives).disagreeing, expected) << off_deg << " " << which;
     }
   }
+}
+
+TEST(Docket, TwoBadOnesAreBothTold) {
+  auto perspectives = walk();
+  for (const std::size_t i : {std::size_t{1}, kMiddle + 2}) {
+    geometry::Pose& pose = perspectives[i].world_from_camera;
+    pose.rotation = pose.rotation * geometry::exp_so3({0.0, 1.5 * kDegree, 0.0});
+  }
+  const std::vector<int> expected{1, static_cast<int>(kMiddle) + 2};
+  EXPECT_EQ(judge_all(perspectives).disagreeing, expected);
+}
+
+// What is very bad spoils the depth of those around it too.
+TEST(Docket, WhatAMuchWorseNeighbourMayHaveCausedIsExcused) {
+  auto perspectives = walk();
+  for (const auto& [index, off_deg] : {std::pair{kMiddle, 5.0}, {kMiddle + 1, 0.8}}) {
+    geometry::Pose& pose = perspectives[index].world_from_camera;
+    pose.rotation = pose.rotation * geometry::exp_so3({0.0, off_deg * kDegree, 0.0});
+  }
+  Docket docket({}, {});
+  EXPECT_EQ(judge_all(docket, perspectives).disagreeing, std::vector<int>{kMiddle});
+  perspectives.erase(perspectives.begin() + kMiddle);
+  EXPECT_EQ(judge_all(docket, perspectives).disagreeing, std::vector<int>{kMiddle + 1})
+      << "until that one is gone";
 }
 
 TEST(Docket, APictureWithAnOccluderDisagrees) {
@@ -249,11 +274,11 @@ TEST(LiveQuality, AtOnceJudgesOneACallAndIsTheSameEachTime) {
 }
 
 TEST(LiveQuality, MeanwhileComesToTheSame) {
-  const auto light_field = light_field_of(walk(4, 2));
+  const auto light_field = light_field_of(walk(3, 1));
   LiveQuality at_once({}, {}, Estimating::AtOnce);
-  for (int i = 0; i < 10; ++i) at_once.watch(light_field);
+  for (int i = 0; i < 3; ++i) at_once.watch(light_field);
   LiveQuality meanwhile({}, {}, Estimating::Meanwhile);
-  while (meanwhile.watch(light_field).psnr.size() < 8) std::this_thread::yield();
+  while (meanwhile.watch(light_field).psnr.size() < 3) std::this_thread::yield();
   EXPECT_EQ(meanwhile.watch(light_field).psnr, at_once.watch(light_field).psnr);
 }
 
@@ -297,13 +322,16 @@ TEST(Disagreement, IsToldAgainstTheSpreadOfTheOthers) {
 
   Judged bad{{20.0, 1.0 * kDegree, 5.0}, std::nullopt, 0.07};
   EXPECT_TRUE(stands_out(bad, *limits));
-  EXPECT_FALSE(disagrees(bad, *limits)) << "no appeal yet";
+  EXPECT_EQ(severity(bad, *limits), 0.0) << "no appeal yet";
   bad.appeal = Judgement{20.0, 0.1 * kDegree, 5.0};
-  EXPECT_FALSE(disagrees(bad, *limits)) << "one half of the jury agrees with it";
-  bad.appeal = bad.judgement;
-  EXPECT_TRUE(disagrees(bad, *limits));
+  EXPECT_LT(severity(bad, *limits), 1.0) << "one half of the jury agrees with it";
+  bad.appeal = Judgement{20.0, 3.0 * limits->shift, 2.0 * limits->difference};
+  EXPECT_NEAR(severity(bad, *limits), 3.0, 1e-9);
+  bad.appeal->shift = std::nan("");
+  EXPECT_NEAR(severity(bad, *limits), 2.0, 1e-9);
   bad.nearest = 0.3;
   EXPECT_FALSE(stands_out(bad, *limits)) << "nobody is near enough to tell";
+  EXPECT_EQ(severity(bad, *limits), 0.0);
   judged.resize(5);
   EXPECT_FALSE(limits_of(judged, options)) << "too few to have a spread";
 }
