@@ -280,6 +280,8 @@ TEST(LiveQuality, MeanwhileComesToTheSame) {
   LiveQuality meanwhile({}, {}, Estimating::Meanwhile);
   while (meanwhile.watch(light_field).psnr.size() < 3) std::this_thread::yield();
   EXPECT_EQ(meanwhile.watch(light_field).psnr, at_once.watch(light_field).psnr);
+  const auto other = light_field_of(walk(3, 1));
+  EXPECT_TRUE(meanwhile.watch(other).psnr.empty()) << "the same ids, but not the same pictures";
 }
 
 TEST(LiveQuality, TellsOnlyOfWhatIsThere) {
