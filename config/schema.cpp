@@ -269,7 +269,7 @@ std::vector<Key> schema(Config& c) {
        1,
        100,
        {},
-       "docs/guidance.md: nothing is flagged in clean captures, all that was spoilt on purpose is"},
+       "none in three clean captures: docs/guidance.md"},
       {"quality",
        "least_shift_deg",
        &c.quality.least_shift_deg,

@@ -126,8 +126,8 @@ std::optional<geometry::Pose> ReviewMode::pose_of_box(const Moment& moment) cons
 void ReviewMode::wipe(Press press) {
   if (press == Press::Long) {
     session_.recorder.undo_wipe();
-  } else if (steering_ == Steering::Stand && session_.recorder.wipe(stand_)) {
-    // Not the nearest: another may have been taken at the same place.
+  } else if (steering_ == Steering::Stand) {
+    session_.recorder.wipe(stand_);  // once it is gone nothing: its neighbours are not to blame
   } else if (world_from_view_) {
     session_.recorder.wipe_nearest(world_from_view_->translation);
   }

@@ -414,6 +414,8 @@ TEST(Review, GoesToTheViewsThatDisagreeOneAfterTheOtherAndWipesThem) {
   box.tick({kWipe}, 0.2);
   EXPECT_EQ(box.views(), recorded - 1);
   EXPECT_EQ(light_field.perspectives()[2].id, 3);
+  box.tick({kWipe}, 0.2);
+  EXPECT_EQ(box.views(), recorded - 1) << "its neighbours stay";
   box.session.quality.disagreeing = {5};
   box.tick({}, 0.2);
   EXPECT_EQ(box.picture.advice, "1 view disagrees: hold Review to see it");
