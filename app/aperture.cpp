@@ -18,6 +18,10 @@ void Aperture::update(const Moment& moment, const Eigen::Vector3d& focus) {
       kept.world_from_camera = *world_from_keyframe * kept.keyframe_from_camera;
     }
   }
+  if (moment.frame.color != live_) {
+    live_ = moment.frame.color;
+    live_photo_ = std::make_shared<lightfield::Photo>(live_);
+  }
   if (!moment.tracking_is_good()) {
     return;
   }
@@ -47,6 +51,7 @@ LightFieldPicture Aperture::draw(const Moment& moment, const Eigen::Vector3d& fo
 
 Perspective Aperture::with_id(const Moment& moment, int id) const {
   Perspective perspective = perspective_of(moment, camera_);
+  perspective.photo = live_photo_;
   perspective.id = id;
   return perspective;
 }

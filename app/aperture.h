@@ -17,13 +17,13 @@ class Aperture {
  public:
   Aperture(const geometry::Camera& camera, const config::Aperture& options);
 
-  /// Keeps the moment's frame if it was taken far enough from those kept, as seen from `focus`; the
-  /// oldest makes room.
+  /// Once per tick. Keeps the moment's frame if it was taken far enough from those kept, as seen
+  /// from `focus`; the oldest makes room.
   void update(const Moment& moment, const Eigen::Vector3d& focus);
 
   int frames() const { return static_cast<int>(kept_.size()); }
 
-  /// Kept frames and the live one, focused on `focus`. The moment must have a pose.
+  /// Kept frames and the live one, focused on `focus`; after update(). The moment must have a pose.
   LightFieldPicture draw(const Moment& moment, const Eigen::Vector3d& focus,
                          const config::Render& options) const;
 
@@ -33,6 +33,9 @@ class Aperture {
   std::shared_ptr<const geometry::Camera> camera_;
   config::Aperture options_;
   std::vector<lightfield::Perspective> kept_;  ///< oldest first
+  std::shared_ptr<const hal::Image> live_;     ///< picture of the newest frame
+  std::shared_ptr<lightfield::Photo>
+      live_photo_;    ///< as long as the frame is the newest: one upload
   int next_id_ = -1;  ///< counts down: never the id of a perspective of the light field
 };
 

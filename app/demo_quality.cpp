@@ -83,7 +83,7 @@ void say_quality(const hal::Scene& scene, const Loop& loop) {
                      scene.subject_mask(camera, pose, time_s)});
   }
   std::printf("%zu views between them, against the simulator's own, on the subject:\n", kViews);
-  Painter painter(Exactness::Fast);
+  Painter painter(Exactness::Fast, loop.config().render);
   render::ProxyGeometry proxy(loop.moment().map.points(), render::Estimating::AtOnce);
   for (const render::Method& method :
        render::compared_methods(loop.config().render, light_field.subject()->center)) {

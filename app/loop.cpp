@@ -31,7 +31,7 @@ Loop::Loop(Devices& devices, const config::Config& config, std::filesystem::path
       modes_(session_, camera_),
       gestures_(config.controls.long_press_s),
       metronome_(*devices.clock, config.loop.rate_hz),
-      screen_(*devices.display, *devices.clock, camera_, threading.estimating),
+      screen_(*devices.display, *devices.clock, camera_, config.render, threading.estimating),
       quality_(config.render, config.quality, threading.estimating) {
   if (saved) {
     resume(std::move(*saved));
@@ -41,9 +41,6 @@ Loop::Loop(Devices& devices, const config::Config& config, std::filesystem::path
 void Loop::resume(SavedCapture saved) {
   session_.threshold = saved.capture.threshold.value_or(session_.threshold);
   recorder_.resume(std::move(saved.capture), saved.map ? &sight_.moment().map : nullptr);
-  for (const auto& perspective : recorder_.light_field().perspectives()) {
-    screen_.upload(perspective);
-  }
 }
 
 void Loop::run(const std::function<bool()>& go_on) {
@@ -120,7 +117,7 @@ void Loop::show(Picture picture) {
     picture_.figures = figures();
   }
   screen_.draw(picture_, sight_.moment().frame, metronome_.due_ns());
-  devices_.display->present();
+  screen_.present();
 }
 
 std::vector<std::string> Loop::figures() const {

@@ -29,7 +29,7 @@ void Painter::set_size(int width, int height) {
   renderer_.reset();
   display_ = std::make_unique<hal::OffscreenDisplay>(width, height);
   display_->make_current();
-  renderer_ = std::make_unique<render::Renderer>();
+  renderer_ = std::make_unique<render::Renderer>(options_);
 }
 
 }  // namespace lumibox::app

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "config/config.h"
 #include "hal/image.h"
 #include "hal/offscreen/offscreen_display.h"
 #include "lightfield/perspective.h"
@@ -19,7 +20,8 @@ enum class Exactness {
 /// Pictures of a light field for files.
 class Painter {
  public:
-  explicit Painter(Exactness exactness) : exactness_(exactness) {}
+  explicit Painter(Exactness exactness, const config::Render& options)
+      : exactness_(exactness), options_(options) {}
   ~Painter();
   Painter(const Painter&) = delete;
   Painter& operator=(const Painter&) = delete;
@@ -33,6 +35,7 @@ class Painter {
   void set_size(int width, int height);
 
   Exactness exactness_;
+  config::Render options_;
   std::unique_ptr<hal::OffscreenDisplay> display_;
   std::unique_ptr<render::Renderer> renderer_;  ///< lives in the display's context
 };

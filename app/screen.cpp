@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "config/log.h"
+
 namespace lumibox::app {
 namespace {
 
@@ -20,25 +22,44 @@ constexpr float kLetterWidth = 0.6F;  // of the size: more than the mean of any 
 }  // namespace
 
 Screen::Screen(hal::Display& display, const hal::Clock& clock, const geometry::Camera& live,
-               render::Estimating estimating)
+               const config::Render& options, render::Estimating estimating)
     : display_(display),
       clock_(clock),
-      live_(live),
+      live_(std::make_shared<const geometry::Camera>(live)),
       view_camera_(fitted_camera(live, display.width(), display.height())),
-      viewer_(clock, estimating) {}
+      viewer_(clock, options, estimating) {
+  begin_drawing();
+}
+
+void Screen::begin_drawing() {
+  overlay_.emplace();
+  viewer_.begin_drawing({view_camera_, geometry::Pose{}}, live_, display_.framebuffer());
+}
+
+void Screen::present() {
+  display_.present();
+  if (!display_.lost()) {
+    return;
+  }
+  config::log_warning("the display has lost its context: everything in it is made again");
+  overlay_.reset();  // while the lost context is current, in which no name means anything
+  viewer_.end_drawing();
+  display_.renew();
+  begin_drawing();
+}
 
 void Screen::draw(const Picture& picture, const hal::Frame& frame, std::int64_t deadline_ns) {
   const render::View view{view_camera_, picture.world_from_view.value_or(geometry::Pose{})};
   draw_backdrop(picture, frame, view, deadline_ns);
   const unsigned framebuffer = display_.framebuffer();
   if (picture.coverage) {
-    overlay_.draw_coverage(*picture.coverage, view, framebuffer);
+    overlay_->draw_coverage(*picture.coverage, view, framebuffer);
   }
   if (picture.way) {
-    overlay_.draw_arrow(*picture.way, display_.width(), display_.height(), framebuffer);
+    overlay_->draw_arrow(*picture.way, display_.width(), display_.height(), framebuffer);
   }
   if (picture.reticle) {
-    overlay_.draw_reticle(display_.width(), display_.height(), framebuffer);
+    overlay_->draw_reticle(display_.width(), display_.height(), framebuffer);
   }
   draw_text(picture);
 }
@@ -50,15 +71,15 @@ void Screen::draw_backdrop(const Picture& picture, const hal::Frame& frame,
     const double left_ms = 1e-6 * static_cast<double>(deadline_ns - clock_.now_ns());
     viewer_.draw(*picture.light_field, view, framebuffer, kBudgetShare * left_ms);
   } else if (frame.color) {
-    overlay_.draw_image(*frame.color, live_, view, 1.0F, framebuffer);
+    overlay_->draw_image(*frame.color, *live_, view, 1.0F, framebuffer);
   } else {
     viewer_.clear(view, framebuffer);
   }
 }
 
 void Screen::draw_text(const Picture& picture) {
-  overlay_.draw_text(text_of(picture, display_.width(), display_.height()), display_.width(),
-                     display_.height(), display_.framebuffer());
+  overlay_->draw_text(text_of(picture, display_.width(), display_.height()), display_.width(),
+                      display_.height(), display_.framebuffer());
 }
 
 std::vector<render::Text> text_of(const Picture& picture, int width, int height) {

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/picture.h"
 #include "app/viewer.h"
+#include "config/config.h"
 #include "geometry/camera.h"
 #include "hal/display.h"
 #include "hal/frame.h"
@@ -19,7 +22,7 @@ class Screen {
   /// `live` is the camera whose pictures are shown; they fill the display as far as their shape
   /// allows.
   Screen(hal::Display& display, const hal::Clock& clock, const geometry::Camera& live,
-         render::Estimating estimating);
+         const config::Render& options, render::Estimating estimating);
 
   /// Draws without presenting. `frame` is the newest one; its picture may be null. A light field is
   /// drawn as well as it can be by `deadline_ns` of the clock.
@@ -28,20 +31,25 @@ class Screen {
   /// How the last light field was drawn.
   const std::string& viewer_figures() const { return viewer_.figures(); }
 
+  /// Presents what was drawn. If the display has lost its context, a new one is made and all that
+  /// was in the old; the next picture drawn is as it would have been.
+  void present();
+
   /// Hands a recorded picture to the GPU now, so that the tick that reviews does not pay for it.
   void upload(const lightfield::Perspective& perspective) { viewer_.upload(perspective); }
 
  private:
+  void begin_drawing();
   void draw_backdrop(const Picture& picture, const hal::Frame& frame, const render::View& view,
                      std::int64_t deadline_ns);
   void draw_text(const Picture& picture);
 
   hal::Display& display_;
   const hal::Clock& clock_;
-  geometry::Camera live_;
+  std::shared_ptr<const geometry::Camera> live_;
   geometry::Camera view_camera_;  ///< without distortion, of the display's size
   Viewer viewer_;
-  render::Overlay overlay_;
+  std::optional<render::Overlay> overlay_;  ///< none only while a context is made again
 };
 
 /// The pinhole camera that shows the whole picture of `camera`, undistorted and as large as

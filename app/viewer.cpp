@@ -61,11 +61,29 @@ double motion_px(const render::View& from, const render::View& to, const Eigen::
   return f * (turned + moved / std::max(distance, 1e-9));
 }
 
-Viewer::Viewer(const hal::Clock& clock, render::Estimating estimating)
-    : clock_(clock), proxy_({}, estimating) {}
+Viewer::Viewer(const hal::Clock& clock, const config::Render& options,
+               render::Estimating estimating)
+    : clock_(clock), options_(options), proxy_({}, estimating) {
+  if (estimating == render::Estimating::Meanwhile) {
+    reader_ = std::make_unique<render::ReadAheadThread>();
+  }
+}
+
+void Viewer::begin_drawing(const render::View& view,
+                           const std::shared_ptr<const geometry::Camera>& live,
+                           unsigned framebuffer) {
+  gl_.emplace(options_, reader_ ? &reader_->pictures() : nullptr);
+  gl_->renderer.prepare(view, live, framebuffer);
+}
+
+void Viewer::end_drawing() {
+  gl_.reset();
+  rest_.reset();
+  refinement_.reset();
+}
 
 void Viewer::clear(const render::View& view, unsigned framebuffer) {
-  renderer_.draw(view, {}, render::Settings{}, framebuffer);
+  gl_->renderer.draw(view, {}, render::Settings{}, framebuffer);
 }
 
 void Viewer::draw(const LightFieldPicture& shown, const render::View& view, unsigned framebuffer,
@@ -77,7 +95,7 @@ void Viewer::draw(const LightFieldPicture& shown, const render::View& view, unsi
     return;
   }
   refine(budget_ms);
-  const render::Canvas& canvas = refinement_->complete ? refined_ : moving_;
+  const render::Canvas& canvas = refinement_->complete ? gl_->refined : gl_->moving;
   canvas.show(framebuffer, view.camera.width(), view.camera.height());
 }
 
@@ -101,11 +119,11 @@ void Viewer::draw_moving(const LightFieldPicture& shown, const render::View& vie
   const render::Settings settings = proxy_.fit(render::at_effort(shown.settings, effort),
                                                effort.geometry, drawn, shown.perspectives);
   if (effort.scale < 1.0) {
-    moving_.set_size(drawn.camera.width(), drawn.camera.height());
-    renderer_.draw(drawn, shown.perspectives, settings, moving_.framebuffer());
-    moving_.show(framebuffer, view.camera.width(), view.camera.height());
+    gl_->moving.set_size(drawn.camera.width(), drawn.camera.height());
+    gl_->renderer.draw(drawn, shown.perspectives, settings, gl_->moving.framebuffer());
+    gl_->moving.show(framebuffer, view.camera.width(), view.camera.height());
   } else {
-    renderer_.draw(drawn, shown.perspectives, settings, framebuffer);
+    gl_->renderer.draw(drawn, shown.perspectives, settings, framebuffer);
   }
   glFinish();  // what it takes is to be known; the next tick needs the GPU no sooner
   governor_.measured(measure_ms(begin_ns));
@@ -120,7 +138,7 @@ void Viewer::refine(double budget_ms) {
   const bool again = refinement_ && refinement_->rows == height;
   if (again && ++refinement_->ticks < kTicksToRefineAgain) return;
   if (!refinement_ || again) {
-    refined_.set_size(view.camera.width(), height);
+    gl_->refined.set_size(view.camera.width(), height);
     refinement_ = Refinement{proxy_.fit(shown.settings, shown.geometry, view, shown.perspectives),
                              0, again, 0};
     if (!again) rows_per_tick_ = std::max(kLeastRows, height / kFirstBands);
@@ -128,8 +146,8 @@ void Viewer::refine(double budget_ms) {
   }
   const std::int64_t begin_ns = clock_.now_ns();
   const int rows = std::min(rows_per_tick_, height - refinement_->rows);
-  renderer_.draw(view, shown.perspectives, refinement_->settings, refined_.framebuffer(),
-                 render::Rows{refinement_->rows, rows});
+  gl_->renderer.draw(view, shown.perspectives, refinement_->settings, gl_->refined.framebuffer(),
+                     render::Rows{refinement_->rows, rows});
   glFinish();
   refinement_->rows += rows;
   refinement_->complete = refinement_->complete || refinement_->rows == height;

@@ -1,13 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "app/picture.h"
+#include "config/config.h"
 #include "hal/clock.h"
 #include "render/canvas.h"
 #include "render/governor.h"
+#include "render/read_ahead.h"
 #include "render/renderer.h"
 
 namespace lumibox::app {
@@ -19,7 +22,15 @@ namespace lumibox::app {
 /// context, the destructor included.
 class Viewer {
  public:
-  Viewer(const hal::Clock& clock, render::Estimating estimating);
+  Viewer(const hal::Clock& clock, const config::Render& options, render::Estimating estimating);
+
+  /// Before anything is drawn: makes what lives in the context that is current, and compiles what
+  /// views of pictures taken by `live` will need. `framebuffer` is drawn into.
+  void begin_drawing(const render::View& view, const std::shared_ptr<const geometry::Camera>& live,
+                     unsigned framebuffer);
+
+  /// Ends what lives in the context; what was learned stays.
+  void end_drawing();
 
   /// Draws `shown` from `view`, of the size of `framebuffer`, within `budget_ms` if that can be
   /// done.
@@ -27,7 +38,7 @@ class Viewer {
             double budget_ms);
 
   /// Uploads one picture ahead of its first use.
-  void upload(const lightfield::Perspective& perspective) { renderer_.upload(perspective); }
+  void upload(const lightfield::Perspective& perspective) { gl_->renderer.upload(perspective); }
 
   /// Black.
   void clear(const render::View& view, unsigned framebuffer);
@@ -36,6 +47,14 @@ class Viewer {
   const std::string& figures() const { return figures_; }
 
  private:
+  /// All that lives in the display's context.
+  struct Gl {
+    Gl(const config::Render& options, render::ReadAhead* ahead) : renderer(options, ahead) {}
+
+    render::Renderer renderer;
+    render::Canvas moving;  ///< the last view that moved, if it was drawn small
+    render::Canvas refined;
+  };
   /// A view that has not moved by a pixel since it was first seen.
   struct Rest {
     render::View view;
@@ -58,16 +77,16 @@ class Viewer {
   void note(const render::Effort& effort, const LightFieldPicture& shown);
 
   const hal::Clock& clock_;
-  render::Renderer renderer_;
+  config::Render options_;
   render::ProxyGeometry proxy_;
   render::Governor governor_;
   render::Effort effort_;  ///< of the last view that moved
-  render::Canvas moving_;
-  render::Canvas refined_;
   std::optional<Rest> rest_;
   std::optional<Refinement> refinement_;
   int rows_per_tick_ = 0;
   std::string figures_;
+  std::unique_ptr<render::ReadAheadThread> reader_;  ///< null: pictures are read at once
+  std::optional<Gl> gl_;
 };
 
 /// How far things at the focus and at infinity move in the picture from one view to another,

@@ -32,7 +32,7 @@ class Review {
         methods_(render::compared_methods(config.render, walk_.subject.center)),
         display_(walk_.camera->width(), walk_.camera->height()) {
     display_.make_current();
-    renderer_ = std::make_unique<render::Renderer>();
+    renderer_ = std::make_unique<render::Renderer>(config.render);
   }
 
   const geometry::Camera& camera() const { return *walk_.camera; }

@@ -65,7 +65,7 @@ std::vector<Contestant> contestants(const std::vector<Perspective>& perspectives
     }
     const auto proxy = std::make_shared<render::ProxyGeometry>(std::vector<Eigen::Vector3d>(),
                                                                render::Estimating::AtOnce);
-    const auto renderer = std::make_shared<render::Renderer>();
+    const auto renderer = std::make_shared<render::Renderer>(config.render);
     result.push_back(
         {method.name,
          [=, &perspectives](const render::View& view) {

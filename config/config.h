@@ -56,6 +56,7 @@ struct Render {
   double feather_px = 48.0;            ///< width of the faded border (thesis 3)
   double small_aperture_alpha = 0.4;   ///< alpha of the nearer half (thesis 3.2)
   double small_aperture_stop = 0.004;  ///< transmittance at which a pixel is done
+  int texture_mb = 128;                ///< MiB of pictures kept on the GPU
 };
 
 struct Quality {

@@ -19,6 +19,14 @@ class Display {
 
   /// Shows what was drawn.
   virtual void present() = 0;
+
+  /// True if the context is gone with all that was in it, as after a reset of the GPU: known from
+  /// the next present() or make_current() on. What is drawn until renew() goes nowhere.
+  virtual bool lost() const = 0;
+
+  /// A new context in place of one that is lost, current on the calling thread; names of objects in
+  /// the old one mean nothing in it, so their owners must end before. Throws config::InputError.
+  virtual void renew() = 0;
 };
 
 }  // namespace lumibox::hal

@@ -40,6 +40,11 @@ std::shared_ptr<const hal::Image> Photo::rgb() const {
   return fault() ? nullptr : read();
 }
 
+std::shared_ptr<const hal::Image> Photo::in_memory() const {
+  const std::lock_guard lock(mutex_);
+  return pixels_.lock();
+}
+
 std::shared_ptr<const hal::Image> Photo::require_rgb() const {
   auto pixels = rgb();
   if (!pixels) throw config::InputError(*fault());
@@ -65,11 +70,6 @@ std::filesystem::path Photo::file() const {
 std::size_t Photo::bytes_held() const {
   const std::lock_guard lock(mutex_);
   return held_ ? held_->size_bytes() : 0;
-}
-
-std::shared_ptr<const hal::Image> Photo::in_memory() const {
-  const std::lock_guard lock(mutex_);
-  return pixels_.lock();
 }
 
 /// Whatever goes wrong is this photo's fault and nobody else's.

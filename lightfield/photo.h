@@ -39,7 +39,11 @@ class Photo {
   /// those of the file, in some milliseconds; who asks meanwhile shares them. Null if it is lost.
   std::shared_ptr<const hal::Image> rgb() const;
 
-  /// The same for those who cannot go on without: throws config::InputError that says fault().
+  /// The pixels if anybody holds them now; nothing is read.
+  std::shared_ptr<const hal::Image> in_memory() const;
+
+  /// The same as rgb() for those who cannot go on without: throws config::InputError that says
+  /// fault().
   std::shared_ptr<const hal::Image> require_rgb() const;
 
   /// Why it is lost, as a sentence with the path; none as long as nobody asked for it in vain.
@@ -52,7 +56,6 @@ class Photo {
   std::size_t bytes_held() const;
 
  private:
-  std::shared_ptr<const hal::Image> in_memory() const;
   std::shared_ptr<const hal::Image> read() const;
   std::filesystem::path file() const;
 

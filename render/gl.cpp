@@ -82,6 +82,13 @@ Texture make_texture(GLenum target) {
   return Texture(name);
 }
 
+void forget_errors() {
+  // ES 3 has fewer flags than this; a context that is lost would report its loss for ever.
+  constexpr int kMostFlags = 8;
+  for (int i = 0; i < kMostFlags && glGetError() != GL_NO_ERROR; ++i) {
+  }
+}
+
 Program make_program(std::string_view vertex_file, std::string_view fragment_file,
                      std::string_view prelude) {
   return make_program(

@@ -50,6 +50,9 @@ Framebuffer make_framebuffer();
 /// A texture with linear filtering, no mipmaps and clamped edges, left bound to `target`.
 Texture make_texture(GLenum target);
 
+/// What went wrong before is of no interest to who asks glGetError() next.
+void forget_errors();
+
 /// Links a program of two files of render/shaders/. `prelude` stands before the fragment shader:
 /// definitions, and files that it uses. Throws config::InputError with the driver's log.
 Program make_program(std::string_view vertex_file, std::string_view fragment_file,

@@ -7,10 +7,11 @@
 
 #include "render/blending.h"
 #include "render/depth_grid.h"
+#include "render/depth_map.h"
 #include "render/gl.h"
 #include "render/layer_uniforms.h"
 #include "render/map_cache.h"
-#include "render/picture_cache.h"
+#include "render/picture_supply.h"
 #include "render/shader_source.h"
 #include "render/tiles.h"
 
@@ -76,32 +77,75 @@ struct Variant {
 
 class Renderer::Impl {
  public:
-  Impl() : vertex_array_(gl::make_vertex_array()), uniforms_(gl::make_buffer()) {
+  Impl(const config::Render& options, ReadAhead* ahead)
+      : options_(options),
+        supply_(options, ahead),
+        vertex_array_(gl::make_vertex_array()),
+        uniforms_(gl::make_buffer()) {
     glBindBuffer(GL_UNIFORM_BUFFER, uniforms_.name());
     glBufferData(GL_UNIFORM_BUFFER, sizeof(LayerUniforms) * kMaxLayers, nullptr, GL_DYNAMIC_DRAW);
   }
 
   void draw(const View& view, const std::vector<Perspective>& perspectives,
             const Settings& settings, unsigned framebuffer, const std::optional<Rows>& rows) {
-    const Plan plan = plan_with_pictures(view, perspectives, settings);
-    const std::vector<Layer>& layers = plan.layers;
-    const LayerData data = fill_uniforms(plan, perspectives, view, settings);
-    const Kind& kind = data.kind;
+    const SuppliedView supplied = supply_.supply(view, perspectives, settings);
+    const LayerData data = fill_uniforms(supplied, perspectives, view, settings);
+    draw_layers(data, supplied, view, settings, framebuffer, rows);
+  }
 
+  void upload(const Perspective& perspective) { supply_.upload(perspective); }
+
+  void prepare(const View& view, const std::shared_ptr<const geometry::Camera>& source,
+               unsigned framebuffer) {
+    Perspective black;
+    black.world_from_camera = view.world_from_camera;
+    black.camera = source;
+    black.photo = std::make_shared<lightfield::Photo>(
+        std::make_shared<const hal::Image>(source->width(), source->height(), 3));
+    const Eigen::Vector3d focus = view.world_from_camera * Eigen::Vector3d::UnitZ().eval();
+    for (const Settings& settings : all_settings(view, black, focus)) {
+      const SuppliedView supplied = supply_.supply(view, {black}, settings);
+      LayerData data = fill_uniforms(supplied, {black}, view, settings);
+      for (const bool horizon : {false, true}) {
+        data.kind.horizon = horizon;  // what the place of a view decides
+        draw_layers(data, supplied, view, settings, framebuffer, std::nullopt);
+      }
+    }
+  }
+
+ private:
+  /// Of each aperture on planes, and on a shape: one that is everywhere as far as the focus.
+  std::vector<Settings> all_settings(const View& view, const Perspective& perspective,
+                                     const Eigen::Vector3d& focus) const {
+    std::vector<Settings> all = {settings_from(options_, Aperture::Small, focus),
+                                 settings_from(options_, Aperture::Wide, focus),
+                                 settings_from(options_, Aperture::Small, focus)};
+    const auto map = estimate_depth(perspective, {}, focus);
+    if (!map) return all;
+    all.back().shape = std::make_shared<Shape>(DepthGrid(view, {}, 1.0),
+                                               std::vector{std::make_shared<const DepthMap>(*map)});
+    return all;
+  }
+
+  void draw_layers(const LayerData& data, const SuppliedView& supplied, const View& view,
+                   const Settings& settings, unsigned framebuffer,
+                   const std::optional<Rows>& rows) {
+    const Kind& kind = data.kind;
+    const PictureCache& pictures = supply_.cache();
     gl::begin(framebuffer, view.camera.width(), view.camera.height(), gl::Blend::Replace);
     const Variant& variant = variant_for(kind);
     glUseProgram(variant.program.name());
-    glUniform1i(variant.layer_count, static_cast<GLint>(layers.size()));
+    glUniform1i(variant.layer_count, static_cast<GLint>(supplied.layers.size()));
     const Eigen::Vector2f middle = middle_of(view).cast<float>();
     glUniform2f(variant.middle, middle.x(), middle.y());
-    glUniform2f(variant.texel_size, 1.0F / static_cast<float>(std::max(1, cache_.width())),
-                1.0F / static_cast<float>(std::max(1, cache_.height())));
+    glUniform2f(variant.texel_size, 1.0F / static_cast<float>(std::max(1, pictures.width())),
+                1.0F / static_cast<float>(std::max(1, pictures.height())));
     glUniform1f(variant.least_total_weight,
-                static_cast<float>(least_total_weight(plan.planned, kind.shape)));
+                static_cast<float>(least_total_weight(supplied.planned, kind.shape)));
     glUniform1f(variant.stop, static_cast<float>(settings.small_aperture_stop));
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, uniforms_.name());
     glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, cache_.texture());
+    glBindTexture(GL_TEXTURE_2D_ARRAY, pictures.texture());
     if (kind.shape) bind_shape(view, settings, variant);
     if (kind.tiles()) bind_tiles(tiles_of(view, data), variant);
     glBindVertexArray(vertex_array_.name());
@@ -112,69 +156,25 @@ class Renderer::Impl {
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
 
-  void upload(const Perspective& perspective) {
-    const lightfield::Photo& photo = *perspective.photo;
-    cache_.begin_view(1, photo.width(), photo.height());
-    cache_.slot_of(perspective.photo);
-  }
-
- private:
-  /// The layers of a view that have a weight, and where their pictures are.
-  struct Plan {
-    std::vector<Layer> layers;
-    std::vector<int> slots;   ///< of the layers' pictures
-    std::size_t planned = 0;  ///< layers, with those without a weight
-  };
-
-  /// plan_view() with all pictures on the GPU. One that turns out to be lost makes room for the
-  /// next: from then on plan_view() leaves it out.
-  Plan plan_with_pictures(const View& view, const std::vector<Perspective>& perspectives,
-                          const Settings& settings) {
-    while (true) {
-      Plan plan{plan_view(view, perspectives, settings), {}, 0};
-      plan.planned = plan.layers.size();
-      std::erase_if(plan.layers, [](const Layer& layer) { return layer.weight <= 0.0; });
-      plan.slots = picture_slots(plan.layers, perspectives);
-      if (plan.slots.size() == plan.layers.size()) return plan;
-    }
-  }
-
-  /// Fewer than layers if pictures are lost.
-  std::vector<int> picture_slots(const std::vector<Layer>& layers,
-                                 const std::vector<Perspective>& perspectives) {
-    int width = 0;
-    int height = 0;
-    for (const Layer& layer : layers) {
-      width = std::max(width, perspectives[layer.perspective].photo->width());
-      height = std::max(height, perspectives[layer.perspective].photo->height());
-    }
-    if (!layers.empty()) cache_.begin_view(layers.size(), width, height);
-    std::vector<int> slots;
-    for (const Layer& layer : layers) {
-      const auto slot = cache_.slot_of(perspectives[layer.perspective].photo);
-      if (slot) slots.push_back(*slot);
-    }
-    return slots;
-  }
-
   /// Brings the layers' data to the GPU, with the depth maps that are not there.
-  LayerData fill_uniforms(const Plan& plan, const std::vector<Perspective>& perspectives,
-                          const View& view, const Settings& settings) {
+  LayerData fill_uniforms(const SuppliedView& supplied,
+                          const std::vector<Perspective>& perspectives, const View& view,
+                          const Settings& settings) {
     std::vector<LayerSlots> slots;
     if (settings.shape) {
       std::vector<const DepthMap*> maps;
-      for (const Layer& layer : plan.layers) maps.push_back(layer.map.get());
+      for (const Layer& layer : supplied.layers) maps.push_back(layer.map.get());
       maps_.begin_view(maps);
     }
-    for (std::size_t i = 0; i < plan.layers.size(); ++i) {
-      slots.push_back({plan.slots[i]});
-      const Layer& layer = plan.layers[i];
+    for (std::size_t i = 0; i < supplied.layers.size(); ++i) {
+      slots.push_back({supplied.slots[i]});
+      const Layer& layer = supplied.layers[i];
       if (!layer.map) continue;
       const MapCache::Slot map = maps_.slot_of(layer.map);
       slots.back().map = map.index;
       if (map.largest > 0.0) slots.back().largest_map = map.largest;
     }
-    LayerData data = layer_data(view, perspectives, settings, plan.layers, slots);
+    LayerData data = layer_data(view, perspectives, settings, supplied.layers, slots);
     glBindBuffer(GL_UNIFORM_BUFFER, uniforms_.name());
     glBufferSubData(GL_UNIFORM_BUFFER, 0,
                     static_cast<GLsizeiptr>(data.layers.size() * sizeof(LayerUniforms)),
@@ -230,21 +230,28 @@ class Renderer::Impl {
     return *variant;
   }
 
+  config::Render options_;
+  PictureSupply supply_;
   gl::VertexArray vertex_array_;
   gl::Buffer uniforms_;
-  PictureCache cache_;
   MapCache maps_;
   gl::Texture shape_;  ///< inverse depths of the view drawn last
   gl::Texture lists_;  ///< of the tiles of the view drawn last
   std::array<std::optional<Variant>, Kind::kCount> variants_;
 };
 
-Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
+Renderer::Renderer(const config::Render& options, ReadAhead* ahead)
+    : impl_(std::make_unique<Impl>(options, ahead)) {}
 Renderer::~Renderer() = default;
 
 void Renderer::draw(const View& view, const std::vector<Perspective>& perspectives,
                     const Settings& settings, unsigned framebuffer, std::optional<Rows> rows) {
   impl_->draw(view, perspectives, settings, framebuffer, rows);
+}
+
+void Renderer::prepare(const View& view, const std::shared_ptr<const geometry::Camera>& source,
+                       unsigned framebuffer) {
+  impl_->prepare(view, source, framebuffer);
 }
 
 void Renderer::upload(const Perspective& perspective) {

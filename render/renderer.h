@@ -4,7 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "config/config.h"
 #include "lightfield/perspective.h"
+#include "render/read_ahead.h"
 #include "render/view.h"
 
 namespace lumibox::render {
@@ -20,20 +22,29 @@ struct Rows {
 /// that cannot hold the pictures or compile the shaders throws config::InputError.
 class Renderer {
  public:
-  Renderer();
+  /// With somebody who reads `ahead`, who must outlive this, no draw waits for more than a handful
+  /// of files; without, all pictures of a view are there at once.
+  explicit Renderer(const config::Render& options = {}, ReadAhead* ahead = nullptr);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
   /// Draws the view into `framebuffer`, which has the size of view.camera; every pixel is written.
-  /// Pictures not yet on the GPU are uploaded first; those that are lost are left out. With `rows`
-  /// only those are written.
+  /// Pictures not yet on the GPU are uploaded first, or if they are read ahead as they come: until
+  /// then the next nearest take their place. Those that are lost are left out. With `rows` only
+  /// those are written.
   void draw(const View& view, const std::vector<lightfield::Perspective>& perspectives,
             const Settings& settings, unsigned framebuffer,
             std::optional<Rows> rows = std::nullopt);
 
   /// Uploads one picture ahead of its first use, so that the tick that reviews does not pay for it.
   void upload(const lightfield::Perspective& perspective);
+
+  /// Has the driver translate what views like this, from anywhere, of pictures of `source` can
+  /// need, or the first of them would wait for it. Drivers do that when they first draw, so this
+  /// draws into `framebuffer`: what was in it is lost.
+  void prepare(const View& view, const std::shared_ptr<const geometry::Camera>& source,
+               unsigned framebuffer);
 
  private:
   class Impl;

@@ -72,7 +72,7 @@ void evaluate(const EvaluateOptions& options) {
   if (options.pictures) {
     make_folder(*options.pictures);
   }
-  Painter painter(options.reference ? Exactness::Exact : Exactness::Fast);
+  Painter painter(options.reference ? Exactness::Exact : Exactness::Fast, config.render);
   render::ProxyGeometry proxy(capture.points, render::Estimating::AtOnce);
   std::size_t current = 0;
   const auto render_view = [&](const render::View& view,

@@ -57,7 +57,7 @@ void render_views(const RenderOptions& options) {
                           : *perspectives.front().camera;
   const render::Geometry geometry = geometry_of(options, config);
   render::ProxyGeometry proxy(capture.points, render::Estimating::AtOnce);
-  Painter painter(options.reference ? Exactness::Exact : Exactness::Fast);
+  Painter painter(options.reference ? Exactness::Exact : Exactness::Fast, config);
   make_folder(options.out);
   Progress progress("rendering", static_cast<std::int64_t>(views.size()));
   for (std::size_t i = 0; i < views.size(); ++i) {

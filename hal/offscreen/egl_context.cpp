@@ -14,9 +14,9 @@
 namespace lumibox::hal {
 namespace {
 
-[[noreturn]] void fail(const std::string& step) {
+[[noreturn]] void fail(const std::string& step, EGLint error = eglGetError()) {
   std::array<char, 16> code{};
-  std::snprintf(code.data(), code.size(), "0x%04x", static_cast<unsigned>(eglGetError()));
+  std::snprintf(code.data(), code.size(), "0x%04x", static_cast<unsigned>(error));
   throw config::InputError("offscreen display: " + step + " failed (EGL error " + code.data() +
                            "); is a driver for EGL and OpenGL ES 3 installed?");
 }
@@ -128,10 +128,13 @@ EglContext::~EglContext() {
   eglDestroyContext(display_->handle(), context_);
 }
 
-void EglContext::make_current() const {
-  if (eglMakeCurrent(display_->handle(), EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_FALSE) {
-    fail("eglMakeCurrent");
+bool EglContext::make_current() const {
+  if (eglMakeCurrent(display_->handle(), EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE) {
+    return true;
   }
+  const EGLint error = eglGetError();
+  if (error != EGL_CONTEXT_LOST) fail("eglMakeCurrent", error);
+  return false;
 }
 
 void EglContext::release() const {

@@ -33,8 +33,10 @@ class EglContext {
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;
 
-  void make_current() const;  ///< on the calling thread; throws config::InputError
-  void release() const;       ///< from the calling thread, if it is current there
+  /// On the calling thread. False if the context is lost (EGL_CONTEXT_LOST); throws
+  /// config::InputError if anything else is wrong.
+  bool make_current() const;
+  void release() const;  ///< from the calling thread, if it is current there
 
  private:
   std::shared_ptr<const EglDisplay> display_;

@@ -2,6 +2,7 @@
 
 #include <GLES3/gl3.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,32 +14,49 @@ namespace lumibox::hal {
 class OffscreenDisplay::Impl {
  public:
   Impl(int width, int height) : width_(width), height_(height) {
-    context_.make_current();
+    renew();
+    context_->release();  // so that another thread may take it
+  }
+
+  void renew() {
+    context_.emplace();
+    lost_ = !context_->make_current();
     GLint max_size = 0;
     glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &max_size);
-    if (width < 1 || height < 1 || width > max_size || height > max_size) {
+    if (width_ < 1 || height_ < 1 || width_ > max_size || height_ > max_size) {
       throw size_error("expected 1 to " + std::to_string(max_size) + " pixels a side");
     }
     // Deleted with the context, which shares its objects with no other.
     glGenRenderbuffers(1, &color_);
     glBindRenderbuffer(GL_RENDERBUFFER, color_);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width_, height_);
     glGenFramebuffers(1, &framebuffer_);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color_);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
       throw size_error("the driver gives no framebuffer of this size");
     }
-    context_.release();  // so that another thread may take it
   }
 
   int width() const { return width_; }
   int height() const { return height_; }
   unsigned framebuffer() const { return framebuffer_; }
-  void make_current() const { context_.make_current(); }
+  bool lost() const { return lost_; }
+  void make_current() { lost_ = !context_->make_current() || lost_; }
+
+  void present() {
+    glFlush();
+    make_current();  // nothing else tells a loss here
+  }
+
+  void lose() {
+    context_.emplace();
+    context_->make_current();
+    lost_ = true;
+  }
 
   Image read_back() const {
-    context_.make_current();
+    context_->make_current();
     constexpr std::size_t kChannels = 4;  // RGBA bytes are what every ES 3 driver can read
     const auto row_bytes = static_cast<std::size_t>(width_) * kChannels;
     std::vector<std::uint8_t> pixels(row_bytes * static_cast<std::size_t>(height_));
@@ -70,9 +88,10 @@ class OffscreenDisplay::Impl {
 
   int width_;
   int height_;
-  EglContext context_;
+  std::optional<EglContext> context_;
   GLuint color_ = 0;
   GLuint framebuffer_ = 0;
+  bool lost_ = false;
 };
 
 OffscreenDisplay::OffscreenDisplay(int width, int height)
@@ -92,7 +111,16 @@ unsigned OffscreenDisplay::framebuffer() const {
   return impl_->framebuffer();
 }
 void OffscreenDisplay::present() {
-  glFlush();
+  impl_->present();
+}
+bool OffscreenDisplay::lost() const {
+  return impl_->lost();
+}
+void OffscreenDisplay::renew() {
+  impl_->renew();
+}
+void OffscreenDisplay::lose() {
+  impl_->lose();
 }
 Image OffscreenDisplay::read_back() const {
   return impl_->read_back();

@@ -20,6 +20,12 @@ class OffscreenDisplay : public Display {
   void make_current() override;
   unsigned framebuffer() const override;
   void present() override;
+  bool lost() const override;
+  void renew() override;
+
+  /// What a reset of the GPU does, for tests: the context, which must be current, is gone with all
+  /// that was in it, and an empty one that is good for nothing is current.
+  void lose();
 
   /// What the framebuffer holds, three channels, top row first.
   Image read_back() const;

@@ -180,6 +180,22 @@ TEST(Subject, AugmentedApertureCollectsAFewPicturesAndPutsTheSphereAtItsFocus) {
   EXPECT_TRUE(box.recorder.light_field().subject()->center.isApprox(focus, 1e-9));
 }
 
+TEST(Subject, AugmentedApertureShowsAFrameAsOneAndTheSamePhotoWhileItIsTheNewest) {
+  Box box;
+  box.tick();
+  box.tick({kReview});
+  const auto live = [&box] { return box.picture.light_field->perspectives.back().photo; };
+  Moment moment = box.world.see_from({});
+  box.tick_with({}, moment);
+  const auto first = live();
+  EXPECT_EQ(first->rgb(), moment.frame.color);
+  moment.fresh = false;
+  box.tick_with({}, moment);
+  EXPECT_EQ(live(), first);
+  box.tick();
+  EXPECT_NE(live(), first);
+}
+
 TEST(Subject, WithoutAnyPointsThereIsNoSphereAndMainDoesNothing) {
   Box box;
   Moment moment = box.world.see_from({});

@@ -36,10 +36,18 @@ class ViewerTest : public test::GlTest {
   void SetUp() override {
     display_ = open_display(160, 120);
     if (!display_) return;
-    viewer_ = std::make_unique<Viewer>(clock_, render::Estimating::AtOnce);
+    viewer_ = make_viewer(clock_);
     shown_.perspectives =
         test::random_capture(test::textured_ball(1.0), make_camera(160, 120), 12, 4.0, 0.4, 5);
     shown_.geometry = render::Geometry::Plane;
+  }
+
+  std::unique_ptr<Viewer> make_viewer(const hal::Clock& clock) const {
+    auto viewer = std::make_unique<Viewer>(clock, config::Render{}, render::Estimating::AtOnce);
+    const auto camera = std::make_shared<const geometry::Camera>(make_camera(160, 120));
+    viewer->begin_drawing({*camera, look_at({0, 0, -4}, {0, 0, 0})}, camera,
+                          display_->framebuffer());
+    return viewer;
   }
 
   hal::Image draw(double across) {
@@ -51,9 +59,9 @@ class ViewerTest : public test::GlTest {
 
   hal::Image full(double across) {
     SlowClock quick;
-    Viewer viewer(quick, render::Estimating::AtOnce);
+    const std::unique_ptr<Viewer> viewer = make_viewer(quick);
     const render::View view{make_camera(160, 120), look_at({across, 0.2, -3.8}, {0, 0, 0})};
-    viewer.draw(shown_, view, display_->framebuffer(), kBudgetMs);
+    viewer->draw(shown_, view, display_->framebuffer(), kBudgetMs);
     return display_->read_back();
   }
 

@@ -94,6 +94,30 @@ TEST(OffscreenDisplay, MayBeMadeHereAndUsedOnAnotherThread) {
   }).join();
 }
 
+TEST(OffscreenDisplay, AfterALossANewContextTakesItsPlace) {
+  const auto display = open(8, 8);
+  if (!display) GTEST_SKIP() << "no EGL here";
+  display->make_current();
+  GLuint texture = 0;
+  glGenTextures(1, &texture);
+  glBindTexture(GL_TEXTURE_2D, texture);
+  display->present();
+  EXPECT_FALSE(display->lost());
+  display->lose();
+  EXPECT_EQ(glIsTexture(texture), GL_FALSE);
+  display->present();
+  display->make_current();
+  EXPECT_TRUE(display->lost()) << "until it is made anew";
+  display->renew();
+  EXPECT_FALSE(display->lost());
+  EXPECT_EQ(glIsTexture(texture), GL_FALSE);
+  glBindFramebuffer(GL_FRAMEBUFFER, display->framebuffer());
+  clear(0.0F, 1.0F, 0.0F);
+  display->present();
+  EXPECT_FALSE(display->lost());
+  EXPECT_EQ(display->read_back().at(3, 3)[1], 255);
+}
+
 TEST(OffscreenDisplay, ImpossibleSizeIsRefused) {
   if (!open(8, 8)) GTEST_SKIP() << "no EGL here";
   for (const auto& [width, height] : {std::pair{0, 8}, {8, -1}, {1 << 30, 8}}) {

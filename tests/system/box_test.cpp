@@ -100,13 +100,14 @@ class BoxRun {
   }
 
   Loop& loop() { return *loop_; }
+  hal::OffscreenDisplay& display() { return *screen_; }
   hal::Image screen() const { return screen_->read_back(); }
   std::size_t views() const { return loop_->recorder().light_field().perspectives().size(); }
 
  private:
   config::Config config_;
   Devices devices_;
-  const hal::OffscreenDisplay* screen_ = nullptr;
+  hal::OffscreenDisplay* screen_ = nullptr;
   std::unique_ptr<Loop> loop_;
 };
 
@@ -291,6 +292,34 @@ TEST(Box, LostPicturesAreSaidOnceAndTheOthersAreShown) {
   EXPECT_NE(run.loop().picture().alerts[0].find("images/000001.jpg"), std::string::npos);
   EXPECT_GT(mean_brightness(run.screen()), 20.0) << "grey levels: a picture, not a black screen";
   EXPECT_NO_THROW(run.loop().finish());
+}
+
+// While it captures and while it reviews, on the shape and on planes.
+TEST(Box, GoesOnAsIfNothingHadHappenedAfterTheGpuWasReset) {
+  std::vector<TimedPress> presses = kCapture;
+  presses.push_back({7.0, {Button::Main, Press::Short}});  // the wide aperture
+  std::vector<hal::Image> screens;
+  std::map<std::string, std::string> files;
+  for (const bool resets : {false, true}) {
+    const TempDir dir;
+    BoxRun run(presses, dir.path());
+    std::vector<hal::Image> seen;
+    for (const double time_s : {5.0, 6.6, 7.2}) {
+      run.until(time_s);
+      if (resets) run.display().lose();
+      run.until(time_s + 0.2);
+      seen.push_back(run.screen());
+    }
+    EXPECT_EQ(run.loop().mode(), ModeId::Review);
+    EXPECT_GT(mean_brightness(seen.back()), 20.0) << "grey levels: a picture, not a black screen";
+    run.loop().finish();
+    if (resets) {
+      EXPECT_TRUE(seen == screens);
+      EXPECT_TRUE(contents(dir.path()) == files);
+    }
+    screens = seen;
+    files = contents(dir.path());
+  }
 }
 
 /// A file system with little room, while the object lives.
