@@ -186,7 +186,8 @@ TEST_F(PictureSupplyTest, TheNextNearestTakeThePlaceOfThoseThatAreNotReadYetButN
   supply(pictures, 4.9);
   read_all();
   supply(pictures, 4.9);
-  EXPECT_EQ(ids(supply(pictures, 9.9)), (std::vector<int>{10, 9, 8, 7, 6, 5}));
+  EXPECT_EQ(held(pictures).back(), 11);
+  EXPECT_EQ(ids(supply(pictures, 12.9)), (std::vector<int>{13, 12, 11, 10, 9, 8}));
   EXPECT_EQ(ids(supply(pictures, 35.9)), (std::vector<int>{36, 35, 37, 34})) << "after a jump";
 }
 

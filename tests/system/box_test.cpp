@@ -294,31 +294,38 @@ TEST(Box, LostPicturesAreSaidOnceAndTheOthersAreShown) {
   EXPECT_NO_THROW(run.loop().finish());
 }
 
-// While it captures and while it reviews, on the shape and on planes.
-TEST(Box, GoesOnAsIfNothingHadHappenedAfterTheGpuWasReset) {
-  std::vector<TimedPress> presses = kCapture;
-  presses.push_back({7.0, {Button::Main, Press::Short}});  // the wide aperture
+/// What is seen and what is left of a run in which the GPU is reset at some times.
+struct RunWithResets {
   std::vector<hal::Image> screens;
   std::map<std::string, std::string> files;
-  for (const bool resets : {false, true}) {
+
+  explicit RunWithResets(const std::vector<double>& resets_s) {
+    std::vector<TimedPress> presses = kCapture;
+    presses.push_back({7.0, {Button::Main, Press::Short}});  // the wide aperture
     const TempDir dir;
     BoxRun run(presses, dir.path());
-    std::vector<hal::Image> seen;
-    for (const double time_s : {5.0, 6.6, 7.2}) {
+    for (const double time_s : {5.0, 6.5, 6.7, 7.2}) {
       run.until(time_s);
-      if (resets) run.display().lose();
-      run.until(time_s + 0.2);
-      seen.push_back(run.screen());
+      if (std::ranges::find(resets_s, time_s) != resets_s.end()) run.display().lose();
+      run.until(time_s + 0.15);
+      screens.push_back(run.screen());
     }
     EXPECT_EQ(run.loop().mode(), ModeId::Review);
-    EXPECT_GT(mean_brightness(seen.back()), 20.0) << "grey levels: a picture, not a black screen";
     run.loop().finish();
-    if (resets) {
-      EXPECT_TRUE(seen == screens);
-      EXPECT_TRUE(contents(dir.path()) == files);
-    }
-    screens = seen;
     files = contents(dir.path());
+  }
+};
+
+// While it captures and while it reviews, on the shape and on planes. What was recorded since the
+// start is on the GPU as the camera gave it, after a reset as its file has it; so both runs have
+// one when review begins.
+TEST(Box, GoesOnAsIfNothingHadHappenedAfterTheGpuWasReset) {
+  const RunWithResets once({6.5});
+  const RunWithResets often({5.0, 6.5, 6.7, 7.2});
+  EXPECT_TRUE(often.screens == once.screens);
+  EXPECT_TRUE(often.files == once.files);
+  for (const hal::Image& screen : once.screens) {
+    EXPECT_GT(mean_brightness(screen), 20.0) << "grey levels: a picture, not a black screen";
   }
 }
 
