@@ -30,8 +30,9 @@ struct Kind {
   bool one_camera = false;
 
   static constexpr std::size_t kCount = 32;
-  /// Whether it is known which part of the view each layer covers (tiles.h).
-  bool tiles() const { return !shape && !distortion && !horizon; }
+  /// Whether the shader goes by tiles (tiles.h): where it is known which part of the view each
+  /// layer covers, and most parts do not need them all.
+  bool tiles() const { return small_aperture && !distortion && !horizon; }
 
   std::size_t index() const {
     return (small_aperture ? 16U : 0U) + (shape ? 8U : 0U) + (distortion ? 4U : 0U) +

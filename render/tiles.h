@@ -20,8 +20,8 @@ struct Tiles {
   std::vector<std::uint8_t> lists;  ///< of the tiles, row by row
 };
 
-/// Precondition: the layers' sources are in pixels and wholly before their cameras: Kind without
-/// shape, distortion and horizon.
+/// Precondition: data.kind.tiles(): then the layers' sources are in pixels, and wholly before their
+/// cameras.
 Tiles tiles_of(const View& view, const LayerData& data);
 
 }  // namespace lumibox::render

@@ -161,11 +161,7 @@ void main() {
       sum += transmittance * weight * light;
       transmittance *= 1.0 - weight;
     }
-    if (transmittance <= stop) {
-      // What lies behind is thought to look like what lies before.
-      sum /= 1.0 - transmittance;
-      break;
-    }
+    if (transmittance <= stop) break;
 #else
     if (weight > 0.0) {
       sum += near * weight * light;

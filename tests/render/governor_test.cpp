@@ -95,7 +95,7 @@ RC_GTEST_PROP(GovernorProperties, KeepsWithinTheBudgetWhereThatCanBeDone, ()) {
   const double least = wish.aperture == Aperture::Wide ? full_ms * 0.35 * 0.35 * 0.25 * 0.5
                                                        : full_ms * 0.35 * 0.35 * 0.5;
   RC_PRE(least < budget_ms);
-  RC_ASSERT(over <= 3);  // what is better is tried again now and then
+  RC_ASSERT(over <= 9);  // what is better is tried again now and then
 }
 
 RC_GTEST_PROP(GovernorProperties, DoesNotChangeBackAndForth, ()) {
