@@ -71,7 +71,7 @@ void Loop::tick() {
     record(moment);
   }
   recorder_.keep_map(moment);
-  session_.quality = quality_.watch(recorder_.light_field());
+  session_.quality = quality_.watch(recorder_.light_field(), moment.map.points);
   show(modes_.draw(moment));
   ++statistics_.ticks;
   work_ms_ = 1e-6 * static_cast<double>(devices_.clock->now_ns() - begin_ns);

@@ -34,6 +34,9 @@ class Docket {
   void set(const std::vector<lightfield::Perspective>& perspectives,
            const lightfield::Sphere& subject);
 
+  /// Of those whose picture is there, in order of id, reduced(…, kThumbnail).
+  const std::vector<lightfield::Perspective>& thumbnails() const { return thumbnails_; }
+
   /// Judges one perspective; false if there is nothing to do.
   bool judge_next();
 

@@ -47,21 +47,40 @@ LiveQuality::~LiveQuality() {
   if (thread_.joinable()) thread_.join();
 }
 
-const CaptureQuality& LiveQuality::watch(const lightfield::LightField& light_field) {
+const CaptureQuality& LiveQuality::watch(const lightfield::LightField& light_field,
+                                         const Points& points) {
   bool is_news = see(light_field);
-  if (is_news) pending_ = Seen{seen_};
+  if (is_news) {
+    if (points) seen_.points = points();
+    pending_ = Seen{seen_};
+  }
   if (estimating_ == Estimating::AtOnce) {
-    if (pending_) docket_.set(pending_->perspectives, pending_->subject);
+    if (pending_) take(*pending_);
     pending_.reset();
     if (docket_.judge_next() || is_news) {
-      rulings_ = docket_.rulings();
+      findings_ = {docket_.rulings(), tuned_};
       is_news = true;
     }
   } else {
     is_news = exchange() || is_news;
   }
   if (is_news) tell();
+  quality_.gains = eased_gains_.step(gains_);
   return quality_;
+}
+
+/// The light field that is judged from now on.
+void LiveQuality::take(const Seen& seen) {
+  docket_.set(seen.perspectives, seen.subject);
+  const std::vector<Perspective>& thumbnails = docket_.thumbnails();
+  const std::vector<double> gains = exposure_.gains(thumbnails, seen.subject.center, seen.points);
+  tuned_.clear();
+  auto original = seen.perspectives.begin();
+  for (std::size_t i = 0; i < thumbnails.size(); ++i) {
+    original =
+        std::ranges::find(original, seen.perspectives.end(), thumbnails[i].id, &Perspective::id);
+    tuned_.push_back({original->id, original->photo, gains[i]});
+  }
 }
 
 /// True if the light field is not what was seen last.
@@ -73,7 +92,7 @@ bool LiveQuality::see(const lightfield::LightField& light_field) {
       std::ranges::equal(perspectives, seen_.perspectives, same)) {
     return false;
   }
-  seen_ = {perspectives, subject};
+  seen_ = {perspectives, subject, {}};
   return true;
 }
 
@@ -87,7 +106,7 @@ bool LiveQuality::exchange() {
     changed_.notify_all();
   }
   if (!handed_back_) return false;
-  rulings_ = *std::exchange(handed_back_, std::nullopt);
+  findings_ = *std::exchange(handed_back_, std::nullopt);
   return true;
 }
 
@@ -95,7 +114,7 @@ void LiveQuality::tell() {
   quality_ = {};
   std::vector<double> all;
   auto seen = seen_.perspectives.begin();
-  for (const Ruling& ruling : rulings_) {
+  for (const Ruling& ruling : findings_.rulings) {
     seen = std::find_if(seen, seen_.perspectives.end(),
                         [&](const Perspective& p) { return p.id >= ruling.id; });
     if (seen == seen_.perspectives.end()) break;
@@ -105,6 +124,15 @@ void LiveQuality::tell() {
     all.push_back(ruling.psnr);
   }
   quality_.median_psnr = geometry::median(std::move(all));
+
+  gains_.clear();
+  for (const Perspective& perspective : seen_.perspectives) gains_[perspective.id] = 1.0;
+  for (const TunedPicture& tuned : findings_.tuned) {
+    const auto one = std::ranges::find(seen_.perspectives, tuned.id, &Perspective::id);
+    if (one != seen_.perspectives.end() && one->photo == tuned.picture.lock()) {
+      gains_[tuned.id] = tuned.gain;
+    }
+  }
 }
 
 void LiveQuality::run() {
@@ -116,17 +144,17 @@ void LiveQuality::run() {
     if (stopping_) return;
     const std::optional<Seen> seen = std::exchange(handed_over_, std::nullopt);
     lock.unlock();
-    std::optional<std::vector<Ruling>> rulings;
+    std::optional<Findings> findings;
     try {
-      if (seen) docket_.set(seen->perspectives, seen->subject);
+      if (seen) take(*seen);
       idle = !docket_.judge_next();
-      rulings = docket_.rulings();
+      findings = {docket_.rulings(), tuned_};
     } catch (const std::exception& exception) {
       config::log_error(std::string("pictures cannot be judged: ") + exception.what());
       idle = true;  // until something changes
     }
     lock.lock();
-    if (rulings) handed_back_ = std::move(rulings);
+    if (findings) handed_back_ = std::move(findings);
   }
 }
 

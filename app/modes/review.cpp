@@ -76,9 +76,21 @@ Picture ReviewMode::draw(const Moment& moment) const {
   picture.world_from_view = world_from_view_;
   const config::Render& options = session_.config.render;
   picture.light_field = LightFieldPicture{
-      light_field.perspectives(), render::settings_from(options, aperture_, focus()),
+      equally_bright_perspectives(), render::settings_from(options, aperture_, focus()),
       wide ? render::Geometry::Plane : render::geometry_named(options.geometry)};
   return picture;
+}
+
+std::vector<lightfield::Perspective> ReviewMode::equally_bright_perspectives() const {
+  std::vector<lightfield::Perspective> perspectives =
+      session_.recorder.light_field().perspectives();
+  for (lightfield::Perspective& perspective : perspectives) {
+    const auto gain = session_.quality.gains.find(perspective.id);
+    if (gain != session_.quality.gains.end()) {
+      perspective.gain = gain->second;
+    }
+  }
+  return perspectives;
 }
 
 std::string ReviewMode::advice(const Moment& moment) const {

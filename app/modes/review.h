@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/modes/mode.h"
 #include "render/view.h"
@@ -29,6 +30,7 @@ class ReviewMode : public Mode {
 
   std::optional<geometry::Pose> pose_of_box(const Moment& moment) const;
   void stand_at_next_disagreeing();
+  std::vector<lightfield::Perspective> equally_bright_perspectives() const;
   std::string advice(const Moment& moment) const;
   void wipe(Press press);
   Eigen::Vector3d focus() const;

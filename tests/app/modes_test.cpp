@@ -328,7 +328,7 @@ TEST(Capture, DotsHaveTheirQualityAsFarAsItIsKnown) {
   Box box;
   box.go_to_capture();
   box.walk();
-  box.session.quality = {{{0, 31.0}, {2, 17.0}}, {2}, 24.0};
+  box.session.quality = {{{0, 31.0}, {2, 17.0}}, {2}, 24.0, {}};
   box.tick();
   const auto& dots = box.picture.coverage->recorded;
   EXPECT_EQ(dots[0].psnr, 31.0);
@@ -373,6 +373,18 @@ TEST(Review, MainChangesTheApertureAndPlusMinusTheFocus) {
   EXPECT_TRUE(box.picture.light_field->settings.focus.isApprox(subject, 1e-9));
 }
 
+TEST(Review, ShowsPicturesWithTheGainsThatAreKnown) {
+  Box box;
+  box.go_to_capture();
+  box.walk();
+  box.session.quality.gains = {{1, 1.5}, {4, 0.5}};
+  box.tick({kReview});
+  const auto& shown = box.picture.light_field->perspectives;
+  EXPECT_EQ(shown[1].gain, 1.5);
+  EXPECT_EQ(shown[2].gain, 1.0);
+  EXPECT_EQ(shown[4].gain, 0.5);
+}
+
 TEST(Review, WipeRemovesTheViewNearestToTheVirtualCameraAndUndoBringsItBack) {
   Box box;
   box.go_to_capture();
@@ -413,7 +425,7 @@ TEST(Review, GoesToTheViewsThatDisagreeOneAfterTheOtherAndWipesThem) {
   EXPECT_EQ(box.modes.current(), ModeId::Review) << "there is none to go to";
   EXPECT_EQ(box.picture.world_from_view->translation, around_subject(0.2).translation);
 
-  box.session.quality = {{{2, 17.0}, {5, 16.0}}, {2, 5}, 16.5};
+  box.session.quality = {{{2, 17.0}, {5, 16.0}}, {2, 5}, 16.5, {}};
   box.tick({}, 0.2);
   EXPECT_EQ(box.picture.advice, "2 views disagree: hold Review to see them");
   EXPECT_EQ(box.picture.details, "likeness 16.5 dB of 2");

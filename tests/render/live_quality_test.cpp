@@ -299,6 +299,38 @@ TEST(LiveQuality, TellsOnlyOfWhatIsThere) {
   EXPECT_TRUE(live.watch(lightfield::LightField{}).psnr.empty());
 }
 
+// Darker than those around it: the gain comes at once to be known, and slowly to be seen.
+TEST(LiveQuality, TellsGainsOfPicturesOfAnotherExposure) {
+  auto perspectives = walk(4, 2);
+  expose(perspectives[3], 0.7);
+  auto light_field = light_field_of(perspectives);
+  const auto points = [] {
+    std::vector<Eigen::Vector3d> front;
+    for (int i = 0; i < 300; ++i) {
+      const double z = -1.0 + 0.5 * (i + 0.5) / 300.0;
+      const double r = std::sqrt(1.0 - z * z);
+      front.emplace_back(r * std::cos(2.4 * i), r * std::sin(2.4 * i), z);
+    }
+    return front;
+  };
+  for (const Estimating estimating : {Estimating::AtOnce, Estimating::Meanwhile}) {
+    LiveQuality live({}, {}, estimating);
+    EXPECT_LT(live.watch(light_field, points).gains.at(3), 1.1);
+    while (live.watch(light_field, points).psnr.size() < 8) std::this_thread::yield();
+    for (int i = 0; i < 100; ++i) live.watch(light_field, points);
+    const auto gains = live.watch(light_field, points).gains;
+    // 0.7 of the stored value is some 0.45 of the light.
+    EXPECT_NEAR(gains.at(3) / gains.at(2), 1.0 / 0.45, 0.3);
+    EXPECT_NEAR(gains.at(1) / gains.at(2), 1.0, 0.05);
+    light_field.wipe(3);
+    EXPECT_FALSE(live.watch(light_field, points).gains.contains(3));
+    light_field.undo_wipe();
+  }
+  LiveQuality pointless({}, {}, Estimating::AtOnce);
+  for (int i = 0; i < 20; ++i) pointless.watch(light_field);
+  for (const auto& [id, gain] : pointless.watch(light_field).gains) EXPECT_EQ(gain, 1.0);
+}
+
 TEST(LiveQuality, EndsWhileItWorks) {
   const auto light_field = light_field_of(walk());
   LiveQuality live({}, {}, Estimating::Meanwhile);
