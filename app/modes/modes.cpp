@@ -11,8 +11,8 @@ namespace lumibox::app {
 Modes::Modes(Session& session, const geometry::Camera& camera)
     : session_(session),
       modes_{std::make_unique<AcquireMode>(), std::make_unique<SubjectMode>(session, camera),
-             std::make_unique<CaptureMode>(session, camera), std::make_unique<ReviewMode>(session),
-             std::make_unique<ResumeMode>(session)},
+             std::make_unique<CaptureMode>(session, camera),
+             std::make_unique<ReviewMode>(session, camera), std::make_unique<ResumeMode>(session)},
       current_(session.waiting ? ModeId::Resume : ModeId::Acquire) {}
 
 Decision Modes::decide(const std::vector<Gesture>& gestures, const Moment& moment) {

@@ -7,10 +7,12 @@
 
 #include "app/orbit.h"
 #include "app/placement.h"
+#include "render/autofocus.h"
 
 namespace lumibox::app {
 
 void ReviewMode::enter(const Moment& moment) {
+  focused_from_subject_.setZero();
   focus_steps_ = 0;
   stand_ = -1;
   steering_ = pose_of_box(moment) ? Steering::Box : Steering::Orbit;
@@ -26,6 +28,7 @@ ModeId ReviewMode::press(const Gesture& gesture, const Moment& moment) {
       } else {
         aperture_ =
             aperture_ == render::Aperture::Small ? render::Aperture::Wide : render::Aperture::Small;
+        focus_anew();
       }
       break;
     case hal::Button::Review:
@@ -74,6 +77,7 @@ Picture ReviewMode::draw(const Moment& moment) const {
     return picture;
   }
   picture.world_from_view = world_from_view_;
+  picture.reticle = wide;  // what the focus goes to
   const config::Render& options = session_.config.render;
   picture.light_field = LightFieldPicture{
       equally_bright_perspectives(), render::settings_from(options, aperture_, focus()),
@@ -145,16 +149,37 @@ void ReviewMode::wipe(Press press) {
   }
 }
 
+/// The wide aperture's focus goes to what is under the reticle, or to S if nothing there tells;
+/// that of the small one is at S.
+void ReviewMode::focus_anew() {
+  focused_from_subject_.setZero();
+  focus_steps_ = 0;
+  const auto& light_field = session_.recorder.light_field();
+  if (aperture_ != render::Aperture::Wide || !world_from_view_) {
+    return;
+  }
+  const Eigen::Vector3d subject = light_field.subject()->center;
+  const auto ray = view_camera_.unproject(reticle(view_camera_));
+  const auto depth = render::autofocus(
+      {view_camera_, *world_from_view_}, light_field.perspectives(),
+      render::settings_from(session_.config.render, render::Aperture::Wide, subject));
+  if (ray && depth) {
+    focused_from_subject_ = *world_from_view_ * (*depth * ray->homogeneous()) - subject;
+  }
+}
+
 Eigen::Vector3d ReviewMode::focus() const {
-  // S, slid along the view's axis: the planes of thesis 3.1 come nearer or go farther with it.
-  const Eigen::Vector3d subject = session_.recorder.light_field().subject()->center;
+  // What was focused on, slid along the view's axis: the planes of thesis 3.1 come nearer or go
+  // farther with it.
+  const Eigen::Vector3d focused =
+      session_.recorder.light_field().subject()->center + focused_from_subject_;
   const Eigen::Vector3d forward = world_from_view_->rotation * Eigen::Vector3d::UnitZ();
-  const double depth = forward.dot(subject - world_from_view_->translation);
+  const double depth = forward.dot(focused - world_from_view_->translation);
   if (depth <= 0.0) {
-    return subject;  // behind the view
+    return focused;  // behind the view
   }
   const double slid = slide_depth(depth, focus_steps_, session_.config.capture.depth_step);
-  return subject + (slid - depth) * forward;
+  return focused + (slid - depth) * forward;
 }
 
 }  // namespace lumibox::app

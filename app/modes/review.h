@@ -13,7 +13,8 @@ namespace lumibox::app {
 /// Thesis 2.4: the light field as it stands, seen through a virtual camera, at once.
 class ReviewMode : public Mode {
  public:
-  explicit ReviewMode(Session& session) : session_(session) {}
+  ReviewMode(Session& session, const geometry::Camera& camera)
+      : session_(session), view_camera_(camera.undistorted()) {}
 
   void enter(const Moment& moment) override;
   ModeId press(const Gesture& gesture, const Moment& moment) override;
@@ -33,13 +34,17 @@ class ReviewMode : public Mode {
   std::vector<lightfield::Perspective> equally_bright_perspectives() const;
   std::string advice(const Moment& moment) const;
   void wipe(Press press);
+  void focus_anew();
   Eigen::Vector3d focus() const;
 
   Session& session_;
   Steering steering_ = Steering::Box;
   render::Aperture aperture_ = render::Aperture::Small;
-  int stand_ = -1;                                 ///< id of the perspective stood at last
-  int focus_steps_ = 0;                            ///< away from S, in steps of inverse depth
+  int stand_ = -1;                ///< id of the perspective stood at last
+  geometry::Camera view_camera_;  ///< of the virtual camera
+  /// What the wide aperture was focused on, from S, in world: it goes where S goes.
+  Eigen::Vector3d focused_from_subject_ = Eigen::Vector3d::Zero();
+  int focus_steps_ = 0;                            ///< away from that, in steps of inverse depth
   std::int64_t orbit_began_ns_ = 0;                ///< Clock time
   std::optional<geometry::Pose> world_from_view_;  ///< the virtual camera
 };

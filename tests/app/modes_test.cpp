@@ -373,6 +373,55 @@ TEST(Review, MainChangesTheApertureAndPlusMinusTheFocus) {
   EXPECT_TRUE(box.picture.light_field->settings.focus.isApprox(subject, 1e-9));
 }
 
+/// What a box sees of a wall with a pattern, 1.3 before the world's origin.
+Moment before_a_wall(Box& box, double angle) {
+  Moment moment = box.world.see_from(around_subject(angle));
+  const geometry::Camera camera = testing::small_camera();
+  hal::Image image(64, 48, 3);
+  const geometry::Pose& pose = *moment.tracked.world_from_camera;
+  for (int y = 0; y < 48; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const Eigen::Vector3d ray = pose.rotation * camera.unproject({x, y})->homogeneous();
+      const Eigen::Vector3d p = pose.translation + (1.3 - pose.translation.z()) / ray.z() * ray;
+      const double value = 128.0 + 60.0 * std::sin(31.0 * p.x()) + 60.0 * std::sin(37.0 * p.y());
+      std::fill_n(image.at(x, y), 3, static_cast<std::uint8_t>(value));
+    }
+  }
+  moment.frame.color = std::make_shared<hal::Image>(std::move(image));
+  return moment;
+}
+
+TEST(Review, TheWideApertureFocusesOnWhatIsUnderTheReticleAndStaysThere) {
+  Box box;
+  box.go_to_capture();
+  for (int i = -20; i <= 20; ++i) {
+    box.tick_with({}, before_a_wall(box, i * 1.5 * kDegree));
+  }
+  box.tick({kReview});
+  const Eigen::Vector3d subject = box.recorder.light_field().subject()->center;
+  EXPECT_FALSE(box.picture.reticle);
+  EXPECT_TRUE(box.picture.light_field->settings.focus.isApprox(subject, 1e-9));
+
+  box.tick({kMain});
+  EXPECT_TRUE(box.picture.reticle);
+  const Eigen::Vector3d focus = box.picture.light_field->settings.focus;
+  EXPECT_NEAR(1.0 / focus.z(), 1.0 / 1.3, 0.025) << "half a step of the sweep";
+  EXPECT_NEAR(focus.head<2>().norm(), 0.0, 0.03) << "on the line of sight";
+  box.tick({}, 0.3);
+  EXPECT_EQ(box.picture.light_field->settings.focus, focus) << "in world, wherever the view is";
+  box.tick({kPlus});
+  EXPECT_GT(box.picture.light_field->settings.focus.z(), focus.z()) << "by hand, from there";
+
+  box.tick({kMain});
+  EXPECT_FALSE(box.picture.reticle);
+  EXPECT_TRUE(box.picture.light_field->settings.focus.isApprox(subject, 1e-9));
+  box.tick({}, 0.3);
+  box.tick({kMain}, 0.3);
+  const Eigen::Vector3d anew = box.picture.light_field->settings.focus;
+  EXPECT_NEAR(anew.z(), 1.3, 0.05);
+  EXPECT_GT((anew - focus).norm(), 0.05) << "under the reticle of another view";
+}
+
 TEST(Review, ShowsPicturesWithTheGainsThatAreKnown) {
   Box box;
   box.go_to_capture();
