@@ -383,7 +383,7 @@ Moment before_a_wall(Box& box, double angle) {
     for (int x = 0; x < 64; ++x) {
       const Eigen::Vector3d ray = pose.rotation * camera.unproject({x, y})->homogeneous();
       const Eigen::Vector3d p = pose.translation + (1.3 - pose.translation.z()) / ray.z() * ray;
-      const double value = 128.0 + 60.0 * std::sin(31.0 * p.x()) + 60.0 * std::sin(37.0 * p.y());
+      const double value = 128.0 + 60.0 * std::sin(45.0 * p.x()) + 60.0 * std::sin(50.0 * p.y());
       std::fill_n(image.at(x, y), 3, static_cast<std::uint8_t>(value));
     }
   }
