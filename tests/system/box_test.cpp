@@ -163,6 +163,28 @@ TEST(Box, AWalkAroundASubjectBecomesALightFieldOnTheScreen) {
   EXPECT_FALSE(capture.points.empty());
 }
 
+TEST(Box, TheWideApertureFocusesOnWhatIsUnderTheReticle) {
+  const TempDir dir;
+  std::vector<TimedPress> presses = kCapture;
+  presses.push_back({6.9, {Button::Main, Press::Short}});
+  BoxRun run(presses, dir.path());
+  run.until(6.8);
+  EXPECT_FALSE(run.loop().picture().reticle);
+  run.until(7.2);
+  const Picture& picture = run.loop().picture();
+  EXPECT_TRUE(picture.reticle);
+  ASSERT_TRUE(picture.light_field);
+  EXPECT_EQ(picture.light_field->settings.aperture, render::Aperture::Wide);
+  const Eigen::Vector3d& focus = picture.light_field->settings.focus;
+  EXPECT_GT((focus - run.loop().recorder().light_field().subject()->center).norm(), 1e-6);
+  double nearest = 1e9;
+  for (const Eigen::Vector3d& point : run.loop().moment().map.points()) {
+    nearest = std::min(nearest, (point - focus).norm());
+  }
+  // It is on a surface, and those have points of the map all over.
+  EXPECT_LT(nearest, 0.1 * (picture.world_from_view->translation - focus).norm());
+}
+
 TEST(Box, TwoRunsLeaveTheSameBytes) {
   std::map<std::string, std::string> first;
   for (int i = 0; i < 2; ++i) {
