@@ -26,10 +26,15 @@ void main() {
 const render::gl::ShaderText kFragmentShader{"quad.frag", R"(
 uniform sampler2D picture;  // alpha: the faded border
 uniform float alpha;
+uniform bool light;
 in vec2 at;
 out vec4 color;
 void main() {
   color = texture(picture, at) * vec4(1.0, 1.0, 1.0, alpha);
+  if (light) {
+    color.rgb = mix(color.rgb / 12.92, pow((color.rgb + 0.055) / 1.055, vec3(2.4)),
+                    vec3(greaterThan(color.rgb, vec3(0.04045))));
+  }
 }
 )"};
 
@@ -45,14 +50,14 @@ Eigen::Matrix3d clip_from_pixel(const geometry::Camera& camera) {
 }  // namespace
 
 NaiveQuads::NaiveQuads(Blending blending)
-    : format_(blending == Blending::Light ? GL_SRGB8_ALPHA8 : GL_RGBA8),
-      program_(render::gl::make_program(kVertexShader, kFragmentShader)),
+    : program_(render::gl::make_program(kVertexShader, kFragmentShader)),
       clip_from_source_(render::gl::uniform(program_, "clip_from_source")),
       last_pixel_(render::gl::uniform(program_, "last_pixel")),
       alpha_(render::gl::uniform(program_, "alpha")),
       vertex_array_(render::gl::make_vertex_array()) {
   glUseProgram(program_.name());
   glUniform1i(render::gl::uniform(program_, "picture"), 0);
+  glUniform1i(render::gl::uniform(program_, "light"), blending == Blending::Light ? 1 : 0);
 }
 
 void NaiveQuads::draw(const render::View& view,
@@ -102,8 +107,8 @@ const render::gl::Texture& NaiveQuads::texture_of(const lightfield::Perspective&
   }
   known->second = render::gl::make_texture(GL_TEXTURE_2D);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(format_), width, height, 0, GL_RGBA,
-               GL_UNSIGNED_BYTE, rgba.data());
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+               rgba.data());
   return known->second;
 }
 

@@ -33,7 +33,6 @@ class NaiveQuads {
   const render::gl::Texture& texture_of(const lightfield::Perspective& perspective,
                                         double feather_px);
 
-  GLenum format_;
   render::gl::Program program_;
   GLint clip_from_source_ = -1;
   GLint last_pixel_ = -1;
