@@ -129,12 +129,8 @@ std::optional<double> valley(const std::vector<double>& values) {
   if (told.size() < 3 || least == values.begin() || least + 1 == values.end()) return std::nullopt;
   const double usual = geometry::median(std::move(told));
   if (usual < kLeastDetail || *least > kMostRemaining * usual) return std::nullopt;
-  const double below = *(least - 1);
-  const double above = *(least + 1);
-  const double curvature = below + above - 2.0 * *least;
-  const auto index = static_cast<double>(least - values.begin());
-  return std::isfinite(curvature) && curvature > 0.0 ? index + 0.5 * (below - above) / curvature
-                                                     : index;
+  return static_cast<double>(least - values.begin()) +
+         valley_offset(*(least - 1), *least, *(least + 1));
 }
 
 }  // namespace

@@ -50,10 +50,7 @@ std::optional<SmallPicture> small_picture(const Perspective& perspective) {
 double least(const float* costs, int count) {
   const int best = static_cast<int>(std::min_element(costs, costs + count) - costs);
   if (best == 0 || best == count - 1) return best;
-  const double below = costs[best - 1];
-  const double above = costs[best + 1];
-  const double curvature = below + above - 2.0 * costs[best];
-  return curvature > 0.0 ? best + 0.5 * (below - above) / curvature : best;
+  return best + valley_offset(costs[best - 1], costs[best], costs[best + 1]);
 }
 
 }  // namespace

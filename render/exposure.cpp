@@ -210,14 +210,6 @@ std::vector<double> Exposure::gains(const std::vector<Perspective>& perspectives
   return gains_from(perspectives.size(), ratios);
 }
 
-std::vector<Perspective> equally_bright(std::vector<Perspective> perspectives,
-                                        const Eigen::Vector3d& focus,
-                                        const std::vector<Eigen::Vector3d>& points) {
-  const std::vector<double> gains = Exposure().gains(perspectives, focus, points);
-  for (std::size_t i = 0; i < perspectives.size(); ++i) perspectives[i].gain = gains[i];
-  return perspectives;
-}
-
 const std::map<int, double>& EasedGains::step(const std::map<int, double>& found) {
   std::map<int, double> gains;
   for (const auto& [id, gain] : found) {

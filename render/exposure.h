@@ -50,11 +50,6 @@ class Exposure {
   std::map<const lightfield::Photo*, LightPicture> pictures_;
 };
 
-/// The perspectives with the gains that Exposure finds.
-std::vector<lightfield::Perspective> equally_bright(
-    std::vector<lightfield::Perspective> perspectives, const Eigen::Vector3d& focus,
-    const std::vector<Eigen::Vector3d>& points);
-
 /// Gains by id that follow those found: where one changes while the light field is looked at,
 /// nothing jumps.
 class EasedGains {

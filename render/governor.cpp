@@ -112,10 +112,6 @@ void Governor::measured(double ms) {
   cost = cost ? *cost + (ms > *cost ? kRise : kFall) * (ms - *cost) : ms;
 }
 
-std::optional<double> Governor::full_cost_ms(const Wish& wish) const {
-  return cost_of(states_[kind_of(wish)].ladder, 0);
-}
-
 double Governor::expected_ms() const {
   const State& state = states_[kind_];
   return cost_of(state.ladder, state.rung).value_or(0.0);

@@ -41,9 +41,6 @@ class Governor {
   /// What drawing with the quality chosen last took.
   void measured(double ms);
 
-  /// What full quality is thought to take, milliseconds; none before anything was measured.
-  std::optional<double> full_cost_ms(const Wish& wish) const;
-
   /// What the choice made last is thought to take, and the time that was allowed for it.
   double expected_ms() const;
   double budget_ms() const { return budget_ms_; }

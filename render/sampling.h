@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -43,6 +44,13 @@ float sample_bilinear(const std::vector<Value>& values, int columns, int rows, f
   };
   return (1.0F - b) * ((1.0F - a) * value(left, top) + a * value(right, top)) +
          b * ((1.0F - a) * value(left, bottom) + a * value(right, bottom));
+}
+
+/// Where the lowest of evenly spaced values lies between its neighbours, in steps from it: the
+/// vertex of the parabola through the three. 0 if they make none.
+inline double valley_offset(double below, double lowest, double above) {
+  const double curvature = below + above - 2.0 * lowest;
+  return std::isfinite(curvature) && curvature > 0.0 ? 0.5 * (below - above) / curvature : 0.0;
 }
 
 }  // namespace lumibox::render

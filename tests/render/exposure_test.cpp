@@ -40,6 +40,15 @@ Perspective uniform(Perspective perspective, std::uint8_t value) {
   return perspective;
 }
 
+/// The perspectives with the gains that Exposure finds.
+std::vector<Perspective> equally_bright(std::vector<Perspective> perspectives,
+                                        const Eigen::Vector3d& focus,
+                                        const std::vector<Eigen::Vector3d>& points) {
+  const std::vector<double> gains = Exposure().gains(perspectives, focus, points);
+  for (std::size_t i = 0; i < perspectives.size(); ++i) perspectives[i].gain = gains[i];
+  return perspectives;
+}
+
 /// A ball before a shell far away.
 const std::vector<Perspective>& capture() {
   static const std::vector<Perspective> perspectives = around_a_ball(test::make_camera(96, 72), 16);
