@@ -90,10 +90,14 @@ void forget_errors() {
 }
 
 Program make_program(std::string_view vertex_file, std::string_view fragment_file,
-                     std::string_view prelude) {
-  return make_program(
-      {std::string(vertex_file), std::string(shader_source(vertex_file))},
-      {std::string(fragment_file), std::string(prelude).append(shader_source(fragment_file))});
+                     std::string_view shared, std::string_view prelude) {
+  const std::string before_both(shared);
+  ShaderText vertex{std::string(vertex_file), before_both};
+  vertex.text += shader_source(vertex_file);
+  ShaderText fragment{std::string(fragment_file), before_both};
+  fragment.text += prelude;
+  fragment.text += shader_source(fragment_file);
+  return make_program(vertex, fragment);
 }
 
 Program make_program(const ShaderText& vertex, const ShaderText& fragment) {
@@ -113,6 +117,10 @@ Program make_program(const ShaderText& vertex, const ShaderText& fragment) {
 
 GLint uniform(const Program& program, const char* name) {
   return glGetUniformLocation(program.name(), name);
+}
+
+void bind_block(const Program& program, const char* name, GLuint binding) {
+  glUniformBlockBinding(program.name(), glGetUniformBlockIndex(program.name(), name), binding);
 }
 
 void begin(unsigned framebuffer, int width, int height, Blend blend) {

@@ -53,10 +53,11 @@ Texture make_texture(GLenum target);
 /// What went wrong before is of no interest to who asks glGetError() next.
 void forget_errors();
 
-/// Links a program of two files of render/shaders/. `prelude` stands before the fragment shader:
-/// definitions, and files that it uses. Throws config::InputError with the driver's log.
+/// Links a program of two files of render/shaders/. `shared` stands before both, `prelude` before
+/// the fragment shader: definitions, and files that they use. Throws config::InputError with the
+/// driver's log.
 Program make_program(std::string_view vertex_file, std::string_view fragment_file,
-                     std::string_view prelude = {});
+                     std::string_view shared = {}, std::string_view prelude = {});
 
 /// A shader after the lines that all share (version, precision), and what the log calls it.
 struct ShaderText {
@@ -68,6 +69,9 @@ struct ShaderText {
 Program make_program(const ShaderText& vertex, const ShaderText& fragment);
 
 GLint uniform(const Program& program, const char* name);
+
+/// The program takes the uniform block from a binding point.
+void bind_block(const Program& program, const char* name, GLuint binding);
 
 /// Binds a framebuffer and sets the state that everything here draws with: no depth, no culling,
 /// blending as asked ("over": source alpha).

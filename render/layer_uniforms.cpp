@@ -122,6 +122,7 @@ LayerData layer_data(const View& view, const std::vector<Perspective>& perspecti
     u.beyond = vec4(places.beyond, slots[i].map);
     set_camera(u, perspective, layer, settings);
     data.layers.push_back(u);
+    data.cameras.push_back(perspective.camera);
   }
   share_map_scale(data.layers);
   kind.one_camera = std::all_of(data.layers.begin(), data.layers.end(),

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "render/view.h"
@@ -32,7 +33,7 @@ struct Kind {
   static constexpr std::size_t kCount = 32;
   /// Whether the shader goes by tiles (tiles.h): where it is known which part of the view each
   /// layer covers, and most parts do not need them all.
-  bool tiles() const { return small_aperture && !distortion && !horizon; }
+  bool tiles() const { return small_aperture && !horizon; }
 
   std::size_t index() const {
     return (small_aperture ? 16U : 0U) + (shape ? 8U : 0U) + (distortion ? 4U : 0U) +
@@ -56,6 +57,7 @@ double unit_of(const View& view, const Settings& settings);
 /// Data of the layers of a view, and the least that the shader must be compiled for to draw them.
 struct LayerData {
   std::vector<LayerUniforms> layers;
+  std::vector<std::shared_ptr<const geometry::Camera>> cameras;  ///< of the layers
   Kind kind;
 };
 LayerData layer_data(const View& view, const std::vector<lightfield::Perspective>& perspectives,

@@ -83,7 +83,7 @@ class Overlay::Impl {
  public:
   Impl()
       : picture_program_(
-            gl::make_program("screen.vert", "picture.frag", shader_source("lens.glsl"))),
+            gl::make_program("screen.vert", "picture.frag", {}, shader_source("lens.glsl"))),
         no_vertices_(gl::make_vertex_array()),
         picture_(gl::make_texture(GL_TEXTURE_2D)),
         strokes_("shape.vert", "shape.frag") {

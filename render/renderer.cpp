@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <string>
 
 #include "render/blending.h"
 #include "render/depth_grid.h"
 #include "render/depth_map.h"
 #include "render/gl.h"
+#include "render/layer_program.h"
 #include "render/layer_uniforms.h"
 #include "render/map_cache.h"
 #include "render/picture_supply.h"
-#include "render/shader_source.h"
+#include "render/tile_painter.h"
 #include "render/tiles.h"
 
 namespace lumibox::render {
@@ -20,58 +20,11 @@ namespace {
 
 using lightfield::Perspective;
 
-/// light_field.frag in one of its variants.
-struct Variant {
-  gl::Program program;
-  GLint layer_count = -1;
-  GLint middle = -1;
-  GLint texel_size = -1;
-  GLint least_total_weight = -1;
-  GLint stop = -1;
-  GLint cells = -1;
-  GLint map_texel_size = -1;
-  GLint tile_size = -1;
-  GLint tiles_across = -1;
-
-  explicit Variant(const Kind& kind) {
-    std::string prelude = "#define MAX_LAYERS " + std::to_string(kMaxLayers) + "\n";
-    if (kind.small_aperture) prelude += "#define SMALL_APERTURE\n";
-    if (kind.distortion) prelude += "#define DISTORTION\n";
-    if (kind.horizon) prelude += "#define HORIZON\n";
-    if (kind.one_camera) prelude += "#define ONE_CAMERA\n";
-    if (kind.tiles()) {
-      prelude += "#define TILES\n#define END_OF_LIST " + std::to_string(Tiles::kEnd) + "\n";
-    }
-    if (kind.shape) {
-      prelude += "#define SHAPE\n#define FARTHER_PENALTY " + std::to_string(kFartherPenalty) +
-                 "\n#define LEAST_PENALTY " + std::to_string(kLeastPenalty) + "\n#define BEFORE " +
-                 std::to_string(kBefore) + "\n#define HIDING " + std::to_string(kHiding) +
-                 "\n#define HIDDEN " + std::to_string(kHidden) + "\n";
-    }
-    prelude += shader_source("lens.glsl");
-    prelude += shader_source("light.glsl");
-    program = gl::make_program("screen.vert", "light_field.frag", prelude);
-    layer_count = gl::uniform(program, "layer_count");
-    middle = gl::uniform(program, "middle");
-    texel_size = gl::uniform(program, "texel_size");
-    least_total_weight = gl::uniform(program, "least_total_weight");
-    stop = gl::uniform(program, "stop");
-    glUniformBlockBinding(program.name(), glGetUniformBlockIndex(program.name(), "Layers"), 0);
-    glUseProgram(program.name());
-    glUniform1i(gl::uniform(program, "pictures"), 0);
-    if (kind.tiles()) {
-      tile_size = gl::uniform(program, "tile_size");
-      tiles_across = gl::uniform(program, "tiles_across");
-      glUniform1i(gl::uniform(program, "lists"), 3);
-    }
-    if (kind.shape) {
-      cells = gl::uniform(program, "cells");
-      map_texel_size = gl::uniform(program, "map_texel_size");
-      glUniform1i(gl::uniform(program, "inverse_depths"), 1);
-      glUniform1i(gl::uniform(program, "maps"), 2);
-    }
-  }
-};
+/// Whether any picture is to be shown brighter or darker than it is.
+bool any_gain(const LayerData& data) {
+  return std::ranges::any_of(data.layers,
+                             [](const LayerUniforms& u) { return u.from_1[3] != 1.0F; });
+}
 
 }  // namespace
 
@@ -109,6 +62,10 @@ class Renderer::Impl {
       for (const bool horizon : {false, true}) {
         data.kind.horizon = horizon;  // what the place of a view decides
         draw_layers(data, supplied, view, settings, framebuffer, std::nullopt);
+        if (!data.kind.tiles()) continue;
+        LayerData brighter = data;
+        brighter.layers.front().from_1[3] = 2.0F;
+        draw_layers(brighter, supplied, view, settings, framebuffer, std::nullopt);
       }
     }
   }
@@ -131,29 +88,47 @@ class Renderer::Impl {
                    const Settings& settings, unsigned framebuffer,
                    const std::optional<Rows>& rows) {
     const Kind& kind = data.kind;
-    const PictureCache& pictures = supply_.cache();
     gl::begin(framebuffer, view.camera.width(), view.camera.height(), gl::Blend::Replace);
-    const Variant& variant = variant_for(kind);
-    glUseProgram(variant.program.name());
-    glUniform1i(variant.layer_count, static_cast<GLint>(supplied.layers.size()));
-    const Eigen::Vector2f middle = middle_of(view).cast<float>();
-    glUniform2f(variant.middle, middle.x(), middle.y());
-    glUniform2f(variant.texel_size, 1.0F / static_cast<float>(std::max(1, pictures.width())),
-                1.0F / static_cast<float>(std::max(1, pictures.height())));
-    glUniform1f(variant.least_total_weight,
-                static_cast<float>(least_total_weight(supplied.planned, kind.shape)));
-    glUniform1f(variant.stop, static_cast<float>(settings.small_aperture_stop));
-    glBindBufferBase(GL_UNIFORM_BUFFER, 0, uniforms_.name());
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, pictures.texture());
-    if (kind.shape) bind_shape(view, settings, variant);
-    if (kind.tiles()) bind_tiles(tiles_of(view, data), variant);
-    glBindVertexArray(vertex_array_.name());
     if (rows) {
       glEnable(GL_SCISSOR_TEST);  // gl::begin() disables it
       glScissor(0, rows->first, view.camera.width(), rows->count);
     }
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glBindBufferBase(GL_UNIFORM_BUFFER, kLayersBlock, uniforms_.name());
+    glActiveTexture(GL_TEXTURE0 + kPicturesUnit);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, supply_.cache().texture());
+    const LayerProgram& program = use_program(kind, supplied, view, settings);
+    if (kind.tiles()) {
+      const Tiles tiles = tiles_of(view, data);
+      glUniform1i(program.tile_size, tiles.size);
+      tile_painter_.draw_mixed(tiles);
+      tile_painter_.draw_alone(tiles, middle_of(view).cast<float>(), texel_size(),
+                               {kind.distortion, any_gain(data)});
+    } else {
+      glBindVertexArray(vertex_array_.name());
+      glDrawArrays(GL_TRIANGLES, 0, 3);
+    }
+  }
+
+  const LayerProgram& use_program(const Kind& kind, const SuppliedView& supplied, const View& view,
+                                  const Settings& settings) {
+    const LayerProgram& program = program_for(kind);
+    glUseProgram(program.program.name());
+    glUniform1i(program.layer_count, static_cast<GLint>(supplied.layers.size()));
+    const Eigen::Vector2f middle = middle_of(view).cast<float>();
+    glUniform2f(program.middle, middle.x(), middle.y());
+    glUniform2f(program.texel_size, texel_size().x(), texel_size().y());
+    glUniform1f(program.least_total_weight,
+                static_cast<float>(least_total_weight(supplied.planned, kind.shape)));
+    glUniform1f(program.stop, static_cast<float>(settings.small_aperture_stop));
+    if (kind.shape) bind_shape(view, settings, program);
+    return program;
+  }
+
+  /// Of the array of pictures.
+  Eigen::Vector2f texel_size() const {
+    const PictureCache& pictures = supply_.cache();
+    return {1.0F / static_cast<float>(std::max(1, pictures.width())),
+            1.0F / static_cast<float>(std::max(1, pictures.height()))};
   }
 
   /// Brings the layers' data to the GPU, with the depth maps that are not there.
@@ -182,11 +157,11 @@ class Renderer::Impl {
     return data;
   }
 
-  void bind_shape(const View& view, const Settings& settings, const Variant& variant) {
+  void bind_shape(const View& view, const Settings& settings, const LayerProgram& program) {
     const DepthGrid& shape = settings.shape->grid;
     std::vector<float> scaled = shape.inverse_depths();
     for (float& value : scaled) value *= static_cast<float>(unit_of(view, settings));
-    glActiveTexture(GL_TEXTURE1);
+    glActiveTexture(GL_TEXTURE0 + kInverseDepthsUnit);
     if (shape_.name() == 0) shape_ = gl::make_texture(GL_TEXTURE_2D);
     glBindTexture(GL_TEXTURE_2D, shape_.name());
     glTexImage2D(GL_TEXTURE_2D, 0, GL_R16F, shape.columns(), shape.rows(), 0, GL_RED, GL_FLOAT,
@@ -194,40 +169,22 @@ class Renderer::Impl {
     // Corner i lies at pixel i * cell, in the middle of texel i; fragment rows go up.
     const double cell = shape.cell();
     const double last_row = view.camera.height() - 0.5;
-    glUniform4f(variant.cells, static_cast<float>(1.0 / (cell * shape.columns())),
+    glUniform4f(program.cells, static_cast<float>(1.0 / (cell * shape.columns())),
                 static_cast<float>(-1.0 / (cell * shape.rows())),
                 static_cast<float>((0.5 - 0.5 / cell) / shape.columns()),
                 static_cast<float>((0.5 + last_row / cell) / shape.rows()));
-    glActiveTexture(GL_TEXTURE2);
+    glActiveTexture(GL_TEXTURE0 + kMapsUnit);
     glBindTexture(GL_TEXTURE_2D_ARRAY, maps_.texture());
-    glUniform2f(variant.map_texel_size, 1.0F / static_cast<float>(std::max(1, maps_.width())),
+    glUniform2f(program.map_texel_size, 1.0F / static_cast<float>(std::max(1, maps_.width())),
                 1.0F / static_cast<float>(std::max(1, maps_.height())));
-    glActiveTexture(GL_TEXTURE0);
-  }
-
-  void bind_tiles(const Tiles& tiles, const Variant& variant) {
-    glActiveTexture(GL_TEXTURE3);
-    if (lists_.name() == 0) {
-      lists_ = gl::make_texture(GL_TEXTURE_2D);
-      // Whole numbers are not filtered.
-      glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-      glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    }
-    glBindTexture(GL_TEXTURE_2D, lists_.name());
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_R8UI, static_cast<GLsizei>(tiles.row),
-                 tiles.across * tiles.down, 0, GL_RED_INTEGER, GL_UNSIGNED_BYTE,
-                 tiles.lists.data());
-    glUniform1i(variant.tile_size, tiles.size);
-    glUniform1i(variant.tiles_across, tiles.across);
-    glActiveTexture(GL_TEXTURE0);
+    glActiveTexture(GL_TEXTURE0 + kPicturesUnit);
   }
 
   /// Compiled when first needed.
-  const Variant& variant_for(const Kind& kind) {
-    std::optional<Variant>& variant = variants_[kind.index()];
-    if (!variant) variant.emplace(kind);
-    return *variant;
+  const LayerProgram& program_for(const Kind& kind) {
+    std::optional<LayerProgram>& program = programs_[kind.index()];
+    if (!program) program.emplace(kind);
+    return *program;
   }
 
   config::Render options_;
@@ -236,8 +193,8 @@ class Renderer::Impl {
   gl::Buffer uniforms_;
   MapCache maps_;
   gl::Texture shape_;  ///< inverse depths of the view drawn last
-  gl::Texture lists_;  ///< of the tiles of the view drawn last
-  std::array<std::optional<Variant>, Kind::kCount> variants_;
+  TilePainter tile_painter_;
+  std::array<std::optional<LayerProgram>, Kind::kCount> programs_;
 };
 
 Renderer::Renderer(const config::Render& options, ReadAhead* ahead)

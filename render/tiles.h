@@ -8,20 +8,26 @@
 namespace lumibox::render {
 
 /// Which layers each part of a view needs: those that show something there, in their order, and
-/// none behind one that is opaque all over the part. The shader goes through these alone.
+/// none behind one that is opaque all over the part.
 struct Tiles {
-  static constexpr std::uint8_t kEnd = 255;  ///< after the last layer of a tile
+  static constexpr std::uint8_t kEnd = 255;  ///< after the last layer of a list
   static_assert(kMaxLayers < kEnd);
+  static constexpr std::size_t kMostEntries = 16384;  ///< bytes of a uniform block, at least
+
+  /// One tile as tile.vert has it.
+  struct Tile {
+    std::int32_t column = 0;
+    std::int32_t row = 0;    ///< the lowest is 0, as gl_FragCoord has it
+    std::int32_t shows = 0;  ///< its layer, or where in `lists` its list begins
+  };
 
   int size = 1;                     ///< pixels of the view, both ways
-  int across = 0;                   ///< tiles in a row
-  int down = 0;                     ///< rows, the lowest first as gl_FragCoord has it
-  std::size_t row = 0;              ///< entries for each tile: one more than there are layers
-  std::vector<std::uint8_t> lists;  ///< of the tiles, row by row
+  std::vector<Tile> alone;          ///< a single layer shows there, opaque all over: no list needed
+  std::vector<Tile> mixed;          ///< all others
+  std::vector<std::uint8_t> lists;  ///< of `mixed`
 };
 
-/// Precondition: data.kind.tiles(): then the layers' sources are in pixels, and wholly before their
-/// cameras.
+/// Precondition: data.kind.tiles(): then all is before the view and the layers' cameras.
 Tiles tiles_of(const View& view, const LayerData& data);
 
 }  // namespace lumibox::render

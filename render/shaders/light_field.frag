@@ -6,25 +6,6 @@
 // camera; TILES where each tile of the view has a list of the layers that show something there.
 // What is not needed is not loaded: on a software GPU loads are a third of the time.
 
-struct Layer {
-  // Source = (from_x * x + from_y * y + from_1).xyz at a fragment's place from the middle of the
-  // view: homogeneous, in pixels, or with DISTORTION or SHAPE in normalised coordinates, with SHAPE
-  // at infinity. Beside them in w: slot of the picture; weight or alpha; gain.
-  vec4 from_x;
-  vec4 from_y;
-  vec4 from_1;
-  // A plane lies before the view where dot(beyond, (x, y, 1)) > 0. SHAPE: the source moves by this
-  // times the inverse depth; w is the slot of its depth map, below 0 if it has none.
-  vec4 beyond;
-  vec4 picture;     // width - 1, height - 1, 1 / feather width, samples of its map per pixel
-  vec4 intrinsics;  // fx fy cx cy
-  vec4 distortion;  // as pixel_of() has it
-  vec4 lens;        // k3, squared radius of the fold, 1 if a fisheye lens
-};
-
-layout(std140) uniform Layers {
-  Layer layers[MAX_LAYERS];
-};
 uniform int layer_count;
 uniform vec2 middle;               // of the view, as gl_FragCoord
 uniform vec2 texel_size;           // 1 / size of the texture array
@@ -32,9 +13,12 @@ uniform float least_total_weight;  // smallest divisor of a mean
 uniform float stop;                // small aperture: transmittance at which a pixel is done
 uniform sampler2DArray pictures;
 #ifdef TILES
-uniform highp usampler2D lists;  // one in each row, ended by END_OF_LIST
-uniform int tile_size;
-uniform int tiles_across;
+flat in int list;  // what comes after the near layers
+#endif
+#ifdef NEAR
+in vec4 near_source[NEAR];           // homogeneous, as layers have it; slot
+flat in vec4 near_weight[NEAR / 2];  // weight and gain of two
+flat in int near_count;
 #endif
 #ifdef SHAPE
 uniform sampler2D inverse_depths;  // at the corners of cells
@@ -87,6 +71,13 @@ float visibility_by(float map, vec3 source, float inverse_depth) {
 }
 #endif
 
+// Of the picture at hand, towards its border.
+float fade_at(vec2 pixel) {
+  vec2 fade = clamp(min(pixel, picture.xy - pixel) * picture.z, 0.0, 1.0);
+  fade = fade * fade * (3.0 - 2.0 * fade);
+  return fade.x * fade.y;
+}
+
 // Weight of layer i after feathering at a place from the middle of the view; 0 where it shows
 // nothing. With SHAPE, `near` is its closeness there.
 float seen(int i, vec2 place, float inverse_depth, out vec2 pixel, out float near) {
@@ -105,9 +96,7 @@ float seen(int i, vec2 place, float inverse_depth, out vec2 pixel, out float nea
 #elif defined(SHAPE)
   pixel = intrinsics.xy * pixel + intrinsics.zw;
 #endif
-  vec2 fade = clamp(min(pixel, picture.xy - pixel) * picture.z, 0.0, 1.0);
-  fade = fade * fade * (3.0 - 2.0 * fade);
-  float weight = layers[i].from_y.w * fade.x * fade.y;
+  float weight = layers[i].from_y.w * fade_at(pixel);
 #ifdef DISTORTION
   if (folded) weight = 0.0;
 #endif
@@ -120,30 +109,62 @@ float seen(int i, vec2 place, float inverse_depth, out vec2 pixel, out float nea
   return weight;
 }
 
-// Light that a layer shows.
-vec3 light_at(int i, vec2 pixel) {
+// Light that a picture shows.
+vec3 light_at(float slot, vec2 pixel) {
   vec2 at = (pixel + 0.5) * texel_size;
-  return layers[i].from_1.w * light_of(textureLod(pictures, vec3(at, layers[i].from_x.w), 0.0).rgb);
+  return light_of(textureLod(pictures, vec3(at, slot), 0.0).rgb);
 }
+
+#ifdef SMALL_APERTURE
+vec3 sum = vec3(0.0);
+float transmittance = 1.0;
+
+// What is hidden may be infinite: nothing is multiplied by its weight of 0.
+void put_behind(float weight, vec3 light) {
+  if (weight > 0.0) {
+    sum += transmittance * weight * light;
+    transmittance *= 1.0 - weight;
+  }
+}
+#endif
+
+#ifdef NEAR
+void put_near_behind(vec4 source, vec2 weight_and_gain) {
+  vec2 pixel = source.xy / source.z;
+  float weight = weight_and_gain.x;
+#ifdef DISTORTION
+  if (dot(pixel, pixel) >= lens.y) weight = 0.0;
+  pixel = pixel_of(pixel, intrinsics, distortion, lens.x, lens.z > 0.5);
+#endif
+  put_behind(weight * fade_at(pixel), weight_and_gain.y * light_at(source.w, pixel));
+}
+#endif
 
 void main() {
   vec2 place = gl_FragCoord.xy - middle;
-  vec3 sum = vec3(0.0);
   float depth = 0.0;
 #ifdef SHAPE
   depth = textureLod(inverse_depths, gl_FragCoord.xy * cells.xy + cells.zw, 0.0).r;
 #endif
-#ifdef SMALL_APERTURE
-  float transmittance = 1.0;
-#else
+#ifndef SMALL_APERTURE
+  vec3 sum = vec3(0.0);
   float total = 0.0;
   float near_total = 0.0;
 #endif
   use_camera_of(0);
+#ifdef NEAR
+  for (int n = 0; n < near_count; n += 4) {
+    bool first = n == 0;
+    put_near_behind(first ? near_source[0] : near_source[4], first ? near_weight[0].xy : near_weight[2].xy);
+    put_near_behind(first ? near_source[1] : near_source[5], first ? near_weight[0].zw : near_weight[2].zw);
+    put_near_behind(first ? near_source[2] : near_source[6], first ? near_weight[1].xy : near_weight[3].xy);
+    put_near_behind(first ? near_source[3] : near_source[7], first ? near_weight[1].zw : near_weight[3].zw);
+    if (transmittance <= stop) break;
+  }
+#endif
 #ifdef TILES
-  ivec2 tile = ivec2(gl_FragCoord.xy) / tile_size;
-  for (int j = 0;; ++j) {
-    int i = int(texelFetch(lists, ivec2(j, tile.y * tiles_across + tile.x), 0).r);
+  for (int j = list; transmittance > stop; ++j) {
+    int i = entry_of(j);
     if (i == END_OF_LIST) break;
 #else
   for (int i = 0; i < layer_count; ++i) {
@@ -154,13 +175,9 @@ void main() {
     vec2 pixel;
     float near;
     float weight = seen(i, place, depth, pixel, near);
-    vec3 light = light_at(i, pixel);
-    // What is hidden may be infinite: nothing is multiplied by its weight of 0.
+    vec3 light = layers[i].from_1.w * light_at(layers[i].from_x.w, pixel);
 #ifdef SMALL_APERTURE
-    if (weight > 0.0) {
-      sum += transmittance * weight * light;
-      transmittance *= 1.0 - weight;
-    }
+    put_behind(weight, light);
     if (transmittance <= stop) break;
 #else
     if (weight > 0.0) {
