@@ -244,7 +244,7 @@ std::vector<Key> schema(Config& c) {
        0,
        1000,
        {},
-       "thesis section 3: borders faded; a tenth of 480 rows"},
+       "thesis section 3: borders faded; photographs: 24 is likelier than 48"},
       {"render",
        "small_aperture_alpha",
        &c.render.small_aperture_alpha,

@@ -11,19 +11,33 @@ constexpr float kMargin = 0.05F;  // pixels of the source, for the shader's roun
 /// What a picture does in a tile.
 enum class Cover { None, Part, All };
 
-/// A view cut into squares.
+/// A view cut into squares; the last in a row or column may be cut off.
 struct Grid {
   int size;  ///< of a square, pixels
+  int width;
+  int height;
   int across;
   int down;
-  Eigen::Vector2d middle;  ///< of the view
 
   Grid(const View& view, int tile)
       : size(tile),
-        across((view.camera.width() + tile - 1) / tile),
-        down((view.camera.height() + tile - 1) / tile),
-        middle(middle_of(view)) {}
+        width(view.camera.width()),
+        height(view.camera.height()),
+        across((width + tile - 1) / tile),
+        down((height + tile - 1) / tile) {}
 };
+
+/// Where the squares begin and end along a side of the view, `per_tile` steps for each. Never
+/// outside the view: there something may lie behind a camera.
+std::vector<double> steps(int tiles, int size, int length, int per_tile) {
+  std::vector<double> places = {0.0};
+  for (int tile = 1; tile <= tiles; ++tile) {
+    const double begin = places.back();
+    const double end = std::min(tile * size, length);
+    for (int i = 1; i <= per_tile; ++i) places.push_back(begin + (end - begin) * i / per_tile);
+  }
+  return places;
+}
 
 /// Where the corners of the tiles lie in a layer's picture, and if its lens distorts, the middles
 /// of their sides too.
@@ -34,11 +48,11 @@ class Samples {
       : layer_(layer),
         per_tile_(distortion ? 2 : 1),
         stride_(static_cast<std::size_t>(per_tile_ * grid.across) + 1) {
-    const double step = static_cast<double>(grid.size) / per_tile_;
-    for (int row = 0; row <= per_tile_ * grid.down; ++row) {
-      for (int column = 0; column <= per_tile_ * grid.across; ++column) {
-        const auto x = static_cast<float>(column * step - grid.middle.x());
-        const auto y = static_cast<float>(row * step - grid.middle.y());
+    const std::vector<double> columns = steps(grid.across, grid.size, grid.width, per_tile_);
+    for (const double down : steps(grid.down, grid.size, grid.height, per_tile_)) {
+      for (const double across : columns) {
+        const auto x = static_cast<float>(across - 0.5 * grid.width);
+        const auto y = static_cast<float>(down - 0.5 * grid.height);
         const auto source = [&](std::size_t i) {
           return layer.from_x[i] * x + layer.from_y[i] * y + layer.from_1[i];
         };
@@ -50,7 +64,8 @@ class Samples {
   }
 
   Cover cover(int column, int row) const {
-    // Lines map onto lines but for the lens: what is in a tile lies between its corners.
+    // Lines map onto lines: what is in a tile lies between its corners. A lens bends its sides, but
+    // by less than half a pixel of the view between their middles and ends.
     Eigen::Array2f least = place(column, row, 0, 0);
     Eigen::Array2f most = least;
     for (int y = 0; y <= per_tile_; ++y) {
@@ -60,11 +75,11 @@ class Samples {
       }
     }
     const Eigen::Array2f last(layer_.picture[0], layer_.picture[1]);
-    const Eigen::Array2f margin = kMargin + bend(column, row);
     const float feather = 1.0F / layer_.picture[2];
     if (any_beyond_fold(column, row)) return Cover::Part;
-    if ((most < -margin).any() || (least > last + margin).any()) return Cover::None;
-    const bool inside = (least > feather + margin).all() && (most < last - feather - margin).all();
+    if ((most < -kMargin).any() || (least > last + kMargin).any()) return Cover::None;
+    const bool inside =
+        (least > feather + kMargin).all() && (most < last - feather - kMargin).all();
     return inside ? Cover::All : Cover::Part;
   }
 
@@ -75,19 +90,6 @@ class Samples {
   }
   const Eigen::Array2f& place(int column, int row, int x, int y) const {
     return places_[index(column, row, x, y)];
-  }
-
-  /// How far a lens bends a tile's sides between their ends. Between an end and the middle it is a
-  /// quarter of that.
-  Eigen::Array2f bend(int column, int row) const {
-    Eigen::Array2f most = Eigen::Array2f::Zero();
-    if (per_tile_ == 1) return most;
-    for (int i = 0; i <= 2; ++i) {
-      const auto at = [&](int x, int y) { return place(column, row, x, y); };
-      most = most.max((at(1, i) - 0.5F * (at(0, i) + at(2, i))).abs());
-      most = most.max((at(i, 1) - 0.5F * (at(i, 0) + at(i, 2))).abs());
-    }
-    return most;
   }
 
   /// A radius is largest in a corner.

@@ -34,7 +34,7 @@ struct Settings {
   int k = 40;                                       ///< perspectives blended, at most kMaxLayers
   double exponent = 2.0;                            ///< of the weights, wide aperture only
   Eigen::Vector3d focus = Eigen::Vector3d::Zero();  ///< S: every proxy plane passes through it
-  double feather_px = 48.0;                         ///< width of the faded border
+  double feather_px = 24.0;                         ///< width of the faded border
   double small_aperture_alpha = 0.4;                ///< thesis 3.2
   double small_aperture_stop = 0.004;               ///< transmittance at which a pixel is done
   /// The scene's shape in the view: pictures are projected onto that instead of planes, and at each

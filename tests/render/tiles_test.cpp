@@ -1,11 +1,14 @@
 #include "render/tiles.h"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
+#include <string>
 #include <utility>
 
 #include "render/blending.h"
@@ -56,60 +59,90 @@ double fade_at(const Planned& planned, std::size_t i, int x, int y) {
                                              static_cast<double>(layer.from_1[row]);
   }
   const double feather_px = 1.0 / static_cast<double>(layer.picture[2]);
-  if (!planned.data.kind.distortion) return feather(source.hnormalized(), 64, 48, feather_px);
-  const auto pixel = planned.data.cameras[i]->project(source);
-  return pixel ? feather(*pixel, 64, 48, feather_px) : 0.0;
-}
-
-/// Layers of the tile that a fragment lies in.
-std::vector<int> list_at(const Tiles& tiles, int x, int y) {
-  const auto covers = [&](const Tiles::Tile& tile) {
-    return tile.column == x / tiles.size && tile.row == y / tiles.size;
+  const geometry::Camera& camera = *planned.data.cameras[i];
+  const auto fade = [&](const Eigen::Vector2d& pixel) {
+    return feather(pixel, camera.width(), camera.height(), feather_px);
   };
-  const auto alone = std::ranges::find_if(tiles.alone, covers);
-  const auto mixed = std::ranges::find_if(tiles.mixed, covers);
-  if (alone != tiles.alone.end()) {
-    EXPECT_EQ(mixed, tiles.mixed.end()) << "drawn twice";
-    return {alone->shows};
-  }
-  if (mixed == tiles.mixed.end()) {
-    ADD_FAILURE() << "no tile at " << x << ", " << y;
-    return {};
-  }
-  const auto begin = tiles.lists.begin() + mixed->shows;
-  return {begin, std::find(begin, tiles.lists.end(), Tiles::kEnd)};
+  if (!planned.data.kind.distortion) return fade(source.hnormalized());
+  const auto pixel = camera.project(source);
+  return pixel ? fade(*pixel) : 0.0;
 }
 
-void check_nothing_seen_is_left_out(const Planned& planned) {
-  const Tiles tiles = tiles_of(planned.view, planned.data);
-  for (int y = 0; y < planned.view.camera.height(); y += 5) {
-    for (int x = 0; x < planned.view.camera.width(); x += 5) {
-      const std::vector<int> list = list_at(tiles, x, y);
-      RC_ASSERT(std::ranges::is_sorted(list));
+/// The lists of all tiles, by column and row.
+class Lists {
+ public:
+  explicit Lists(const Tiles& tiles) : size_(tiles.size) {
+    for (const Tiles::Tile& tile : tiles.alone) put(tile, {tile.shows});
+    for (const Tiles::Tile& tile : tiles.mixed) {
+      const auto begin = tiles.lists.begin() + tile.shows;
+      put(tile, {begin, std::find(begin, tiles.lists.end(), Tiles::kEnd)});
+    }
+  }
+
+  /// Of the tile that a fragment lies in.
+  const std::vector<int>& at(int x, int y) const { return lists_.at({x / size_, y / size_}); }
+
+ private:
+  void put(const Tiles::Tile& tile, std::vector<int> list) {
+    const bool is_new = lists_.try_emplace({tile.column, tile.row}, std::move(list)).second;
+    EXPECT_TRUE(is_new) << "drawn twice";
+  }
+
+  int size_;
+  std::map<std::pair<int, int>, std::vector<int>> lists_;
+};
+
+/// A place where a layer shows something and is not in the tile's list; empty if there is none.
+std::string left_out(const Planned& planned, int step = 5) {
+  const Lists lists(tiles_of(planned.view, planned.data));
+  for (int y = 0; y < planned.view.camera.height(); y += step) {
+    for (int x = 0; x < planned.view.camera.width(); x += step) {
+      const std::vector<int>& list = lists.at(x, y);
+      if (!std::ranges::is_sorted(list)) return fmt::format("unsorted at {}, {}", x, y);
       double transmittance = 1.0;
       for (std::size_t i = 0; i < planned.data.layers.size() && transmittance > 0.0; ++i) {
         const double alpha =
             static_cast<double>(planned.data.layers[i].from_y[3]) * fade_at(planned, i, x, y);
-        if (alpha > 0.0) RC_ASSERT(std::ranges::count(list, static_cast<int>(i)) == 1);
+        if (alpha > 0.0 && std::ranges::count(list, static_cast<int>(i)) != 1) {
+          return fmt::format("layer {} at {}, {}", i, x, y);
+        }
         transmittance *= 1.0 - alpha;
       }
     }
   }
+  return {};
 }
 
-/// What is drawn as a picture alone must be opaque all over, since nothing is put behind it.
-void check_alone_is_opaque(const Planned& planned) {
+/// What is drawn as a picture alone must be opaque all over, since nothing is put behind it: a
+/// place where it is not; empty if there is none.
+std::string not_opaque(const Planned& planned) {
   const Tiles tiles = tiles_of(planned.view, planned.data);
   for (const Tiles::Tile& tile : tiles.alone) {
     const auto layer = static_cast<std::size_t>(tile.shows);
-    for (int y = tile.row * tiles.size; y < (tile.row + 1) * tiles.size; y += 3) {
-      for (int x = tile.column * tiles.size; x < (tile.column + 1) * tiles.size; x += 3) {
-        if (x >= planned.view.camera.width() || y >= planned.view.camera.height()) continue;
-        RC_ASSERT(fade_at(planned, layer, x, y) == 1.0);
+    const int right = std::min(planned.view.camera.width(), (tile.column + 1) * tiles.size);
+    const int top = std::min(planned.view.camera.height(), (tile.row + 1) * tiles.size);
+    for (int y = tile.row * tiles.size; y < top; y += 3) {
+      for (int x = tile.column * tiles.size; x < right; x += 3) {
+        const double alpha = static_cast<double>(planned.data.layers[layer].from_y[3]) *
+                             fade_at(planned, layer, x, y);
+        if (alpha < 1.0) return fmt::format("{} at {}, {}", alpha, x, y);
       }
     }
-    RC_ASSERT(planned.data.layers[layer].from_y[3] == 1.0F);
   }
+  return {};
+}
+
+/// One picture, seen from where it was taken.
+Planned plan_one(const geometry::Camera& source, const geometry::Camera& camera) {
+  lightfield::Perspective perspective;
+  perspective.camera = std::make_shared<const geometry::Camera>(source);
+  perspective.photo = std::make_shared<lightfield::Photo>(
+      std::make_shared<const hal::Image>(source.width(), source.height(), 3));
+  Settings settings;
+  settings.focus = Eigen::Vector3d::UnitZ();
+  const View view{camera, geometry::Pose{}};
+  const std::vector<Layer> layers = plan_view(view, {perspective}, settings);
+  return {view, layer_data(view, {perspective}, settings, layers, {LayerSlots{}})};
 }
 
 Planned arbitrary_plan(Lens lens) {
@@ -123,14 +156,54 @@ RC_GTEST_PROP(TilesProperties, NothingThatIsSeenIsLeftOut, ()) {
   const Planned planned =
       arbitrary_plan(*rc::gen::element(Lens::Pinhole, Lens::Distorting, Lens::Fisheye));
   RC_PRE(planned.data.kind.tiles());
-  check_nothing_seen_is_left_out(planned);
+  RC_ASSERT(left_out(planned).empty());
 }
 
 RC_GTEST_PROP(TilesProperties, APictureAloneIsOpaque, ()) {
   const Planned planned =
       arbitrary_plan(*rc::gen::element(Lens::Pinhole, Lens::Distorting, Lens::Fisheye));
   RC_PRE(planned.data.kind.tiles());
-  check_alone_is_opaque(planned);
+  RC_ASSERT(not_opaque(planned).empty());
+}
+
+// Its corners outside the view may lie behind a camera, where there is no telling what they map to.
+TEST(Tiles, ATileLargerThanTheViewEndsWithIt) {
+  for (const Lens lens : {Lens::Pinhole, Lens::Distorting, Lens::Fisheye}) {
+    for (const double across : {-1.5, -0.7, 0.7, 1.5}) {
+      const Planned planned = plan(across, -1.58, 5, 4, 0, lens);
+      if (!planned.data.kind.tiles()) continue;
+      EXPECT_EQ(left_out(planned), "");
+    }
+  }
+}
+
+// Where a tile is a large part of the picture a lens bends its sides most; the border's farthest
+// point lies between two samples here.
+TEST(Tiles, ALensBendsTheSidesOfATile) {
+  config::CameraProfile profile = make_camera(640, 480).profile();
+  profile.k1 = 0.3;
+  config::CameraProfile wide = make_camera(96, 96).profile();
+  wide.fx = wide.fy = 60.0;
+  wide.cx = 56.0;
+  for (double shift = 0.0; shift < 32.0; shift += 0.25) {  // of the border from the tiles
+    wide.cy = 32.0 + shift;
+    const Planned planned = plan_one(geometry::Camera(profile), geometry::Camera(wide));
+    ASSERT_TRUE(planned.data.kind.tiles());
+    ASSERT_EQ(left_out(planned, 1), "") << shift;
+    ASSERT_EQ(not_opaque(planned), "") << shift;
+  }
+}
+
+// Beyond the fold a lens' formula comes back into the picture.
+TEST(Tiles, NothingIsBeyondTheFold) {
+  config::CameraProfile profile = make_camera(640, 480).profile();
+  profile.k1 = -0.28;
+  config::CameraProfile wide = make_camera(640, 480).profile();
+  wide.fx = wide.fy = 100.0;
+  const Planned planned = plan_one(geometry::Camera(profile), geometry::Camera(wide));
+  ASSERT_TRUE(planned.data.kind.tiles());
+  EXPECT_EQ(left_out(planned), "");
+  EXPECT_EQ(not_opaque(planned), "");
 }
 
 // Without it the tests above would pass on lists of everything.
@@ -139,13 +212,14 @@ TEST(Tiles, MostNeedFewLayers) {
     const Planned planned = plan(0.0, 0.0, 320, 240, 3, lens);
     ASSERT_TRUE(planned.data.kind.tiles());
     const Tiles tiles = tiles_of(planned.view, planned.data);
+    const Lists lists(tiles);
     std::size_t layers = 0;
     for (const Tiles::Tile& tile : tiles.mixed) {
-      layers += list_at(tiles, tile.column * tiles.size, tile.row * tiles.size).size();
+      layers += lists.at(tile.column * tiles.size, tile.row * tiles.size).size();
     }
     const std::size_t count = tiles.mixed.size() + tiles.alone.size();
     EXPECT_LT(layers, planned.data.layers.size() * count * 4 / 5);
-    EXPECT_EQ(list_at(tiles, 160, 120).size(), 1U) << "the nearest is opaque in the middle";
+    EXPECT_EQ(lists.at(160, 120).size(), 1U) << "the nearest is opaque in the middle";
   }
 }
 
@@ -161,7 +235,7 @@ TEST(Tiles, ListsFitAUniformBlockWhateverTheView) {
   for (LayerUniforms& layer : planned.data.layers) layer.from_y[3] = 0.4F;  // nothing ends a list
   const Tiles tiles = tiles_of(planned.view, planned.data);
   EXPECT_LE(tiles.lists.size(), Tiles::kMostEntries);
-  EXPECT_GT(list_at(tiles, 3999, 2999).size() + list_at(tiles, 0, 0).size(), 0U);
+  EXPECT_FALSE(Lists(tiles).at(2000, 1500).empty());
 }
 
 }  // namespace
