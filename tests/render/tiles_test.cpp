@@ -183,7 +183,7 @@ TEST(Tiles, ALensBendsTheSidesOfATile) {
   config::CameraProfile profile = make_camera(640, 480).profile();
   profile.k1 = 0.3;
   config::CameraProfile wide = make_camera(96, 96).profile();
-  wide.fx = wide.fy = 60.0;
+  wide.fx = wide.fy = 30.0;
   wide.cx = 56.0;
   for (double shift = 0.0; shift < 32.0; shift += 0.25) {  // of the border from the tiles
     wide.cy = 32.0 + shift;
