@@ -11,6 +11,7 @@ namespace {
 
 constexpr Governor::Wish kMesh{Geometry::Mesh, Aperture::Small};
 constexpr Governor::Wish kWide{Geometry::Plane, Aperture::Wide};
+constexpr Effort kAll{Geometry::Mesh, 1.0, 1.0};
 
 /// What a machine takes for a picture, given what full quality takes it.
 double cost_ms(const Effort& effort, double full_ms) {
@@ -38,13 +39,90 @@ TEST(Governor, StaysWithAllOfItWhileThatFits) {
   EXPECT_EQ(run(governor, kMesh, 9.9, 10.0, 100), (Effort{Geometry::Mesh, 1.0, 1.0}));
 }
 
-// Costs double from one choice to the next at most once: one late picture, not several.
-TEST(Governor, OneSlowPictureIsEnough) {
+TEST(Governor, WhatIsTooSlowIsLeftAfterThreePictures) {
   Governor governor;
-  run(governor, kMesh, 40.0, 15.0, 1);
+  EXPECT_EQ(run(governor, kMesh, 40.0, 15.0, 3), kAll);
   const Effort next = governor.choose(kMesh, 15.0);
   EXPECT_LT(cost_ms(next, 40.0), 15.0);
   EXPECT_EQ(next.geometry, Geometry::Mesh);
+}
+
+// Uploads, first depth maps, what a driver does when it first draws.
+TEST(Governor, WhatAChangeCostsIsNotTheUsualCost) {
+  Governor governor;
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(governor.choose(kMesh, 15.0), kAll);
+    governor.measured(i == 0 ? 200.0 : 10.0);
+  }
+  governor.choose(kWide, 15.0);
+  governor.measured(8.0);
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_EQ(governor.choose(kMesh, 15.0), kAll) << "another kind has been shown meanwhile";
+    governor.measured(i == 0 ? 200.0 : 10.0);
+  }
+}
+
+TEST(Governor, AfterAFallTheFirstPictureDoesNotCountEither) {
+  Governor governor;
+  const Effort fallen = run(governor, kMesh, 25.0, 15.0, 4);
+  EXPECT_EQ(fallen, (Effort{Geometry::Mesh, 0.71, 1.0}));
+  governor.measured(200.0);
+  EXPECT_EQ(run(governor, kMesh, 25.0, 15.0, 30), fallen);
+}
+
+TEST(Governor, NoSinglePictureMakesItFall) {
+  for (int late = 0; late < 40; ++late) {
+    Governor governor;
+    for (int i = 0; i < 60; ++i) {
+      EXPECT_EQ(governor.choose(kMesh, 15.0), kAll) << late << ", " << i;
+      governor.measured(i == late ? 500.0 : 10.0);
+    }
+  }
+}
+
+TEST(Governor, NoSingleTickWithoutTimeMakesItFall) {
+  for (int late = 0; late < 40; ++late) {
+    Governor governor;
+    for (int i = 0; i < 60; ++i) {
+      EXPECT_EQ(governor.choose(kMesh, i == late ? -20.0 : 15.0), kAll) << late << ", " << i;
+      governor.measured(10.0);
+    }
+  }
+}
+
+TEST(Governor, OfTicksThatAlternateTheShorterCount) {
+  Governor governor;
+  for (int i = 0; i < 60; ++i) {
+    const Effort effort = governor.choose(kMesh, i % 2 == 0 ? 30.0 : 15.0);
+    governor.measured(cost_ms(effort, 20.0));
+    if (i > 10) {
+      EXPECT_LT(cost_ms(effort, 20.0), 15.0) << i;
+    }
+  }
+}
+
+// At 30 choices a second: from the last rung to the first, and as long as it takes to see that the
+// other work is over.
+TEST(Governor, RisesWithinTwoSecondsWhenWhatDelayedItIsOver) {
+  for (const double busy_ms : {60.0, 200.0, 1000.0}) {
+    Governor governor;
+    EXPECT_NE(run(governor, kMesh, busy_ms, 15.0, 90), kAll);
+    EXPECT_EQ(run(governor, kMesh, 10.0, 15.0, 60), kAll) << busy_ms;
+  }
+}
+
+// What is thought of a better rung may be wrong each time: here the last step costs ten times as
+// much as the one before.
+TEST(Governor, AfterTrialsThatFailItWaitsLonger) {
+  Governor governor;
+  int trials = 0;
+  for (int i = 0; i < 1800; ++i) {  // a minute
+    const Effort effort = governor.choose(kMesh, 15.0);
+    governor.measured(effort == kAll ? 20.0 : 2.0);
+    trials += effort == kAll ? 1 : 0;
+  }
+  EXPECT_GE(trials, 4 * 3);
+  EXPECT_LE(trials, 11 * 3) << "three pictures each";
 }
 
 TEST(Governor, WithTooLittleTimeForAnythingItDrawsTheCheapest) {
