@@ -74,6 +74,9 @@ void Viewer::begin_drawing(const render::View& view,
                            unsigned framebuffer) {
   gl_.emplace(options_, reader_ ? &reader_->pictures() : nullptr);
   gl_->renderer.prepare(view, live, framebuffer);
+  // The first enlargement would have its tick wait for the driver's compiler, as would a shader.
+  gl_->moving.set_size(view.camera.width() / 2, view.camera.height() / 2);
+  gl_->moving.show(framebuffer, view.camera.width(), view.camera.height());
 }
 
 void Viewer::end_drawing() {
