@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "config/log.h"
+#include "config/step_back.h"
 
 namespace lumibox::render {
 namespace {
@@ -55,22 +56,38 @@ std::shared_ptr<const DepthMap> DepthMaps::map_of(const std::vector<Perspective>
   for (const std::size_t i : depth_neighbours(perspectives, index, focus)) {
     job.perspectives.push_back(perspectives[i]);
   }
-  const std::lock_guard lock(mutex_);
   if (auto known = find(job, false)) return known;
   if (!thread_.joinable()) {
-    keep(job, estimate(job.perspectives, focus));
+    keep(entry_of(job, estimate(job.perspectives, focus)));
     return entries_.back().map;
   }
-  auto older = find(job, true);
-  const auto is_asked_for = [&](const Job& other) {
-    return same_photos(other.perspectives, job.perspectives);
-  };
-  if (current_ && is_asked_for(*current_)) return older;
-  std::erase_if(jobs_, is_asked_for);
+  std::erase_if(
+      jobs_, [&](const Job& other) { return same_photos(other.perspectives, job.perspectives); });
   if (jobs_.size() == kMaxJobs) jobs_.erase(jobs_.begin());
-  jobs_.push_back(std::move(job));
+  jobs_.push_back(job);
+  has_news_ = true;
+  exchange();
+  return find(job, true);
+}
+
+bool DepthMaps::complete() {
+  exchange();
+  return jobs_.empty();
+}
+
+/// Takes the maps that there are, hands over what else is to be made. The thread may be put aside
+/// while it holds the lock: then that waits for the next time, not this for the thread.
+void DepthMaps::exchange() {
+  const std::unique_lock lock(mutex_, std::try_to_lock);
+  if (!lock) return;
+  for (Entry& entry : handed_back_) {
+    std::erase_if(jobs_, [&](const Job& job) { return entry.is_of(job); });
+    keep(std::move(entry));
+  }
+  handed_back_.clear();
+  if (!std::exchange(has_news_, false)) return;
+  handed_over_ = jobs_;
   changed_.notify_all();
-  return older;
 }
 
 /// The map of these pictures, or of the first of them with whatever neighbours.
@@ -84,32 +101,41 @@ std::shared_ptr<const DepthMap> DepthMaps::find(const Job& job, bool any_neighbo
   return entries_.back().map;
 }
 
-void DepthMaps::keep(const Job& job, std::shared_ptr<const DepthMap> map) {
+void DepthMaps::keep(Entry entry) {
   if (entries_.size() == kMaxMaps) entries_.erase(entries_.begin());
-  Entry entry;
-  for (const Perspective& p : job.perspectives) entry.photos.push_back(p.photo);
-  entry.map = std::move(map);
   entries_.push_back(std::move(entry));
 }
 
+DepthMaps::Entry DepthMaps::entry_of(const Job& job, std::shared_ptr<const DepthMap> map) {
+  Entry entry;
+  for (const Perspective& p : job.perspectives) entry.photos.push_back(p.photo);
+  entry.map = std::move(map);
+  return entry;
+}
+
 void DepthMaps::run() {
+  config::step_back("depths are estimated");
+  std::vector<Job> jobs;
   std::unique_lock lock(mutex_);
   while (true) {
-    changed_.wait(lock, [this] { return stopping_ || !jobs_.empty(); });
+    changed_.wait(lock, [&] { return stopping_ || handed_over_ || !jobs.empty(); });
     if (stopping_) return;
-    current_ = std::move(jobs_.back());
-    jobs_.pop_back();
+    if (handed_over_) jobs = *std::exchange(handed_over_, std::nullopt);
+    if (jobs.empty()) continue;
+    const Job job = std::move(jobs.back());
+    jobs.pop_back();
     lock.unlock();
     std::shared_ptr<const DepthMap> map;
     try {
-      map = estimate(current_->perspectives, current_->focus);
+      map = estimate(job.perspectives, job.focus);
     } catch (const std::exception& exception) {
       config::log_error(std::string("no depth map: ") + exception.what());
     }
-    lock.lock();
     // A map that could not be made is not asked for again and again.
-    keep(*current_, std::move(map));
-    current_.reset();
+    Entry entry = entry_of(job, std::move(map));
+    lock.lock();
+    if (handed_over_) std::erase_if(*handed_over_, [&](const Job& j) { return entry.is_of(j); });
+    handed_back_.push_back(std::move(entry));
   }
 }
 

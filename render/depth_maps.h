@@ -16,7 +16,7 @@ namespace lumibox::render {
 /// When depth maps are estimated.
 enum class Estimating {
   AtOnce,    ///< where they are asked for: two runs are identical
-  Meanwhile  ///< on a thread of its own: nobody waits
+  Meanwhile  ///< on a thread of its own, which works when no other wants to: nobody waits
 };
 
 /// Depth maps of perspectives, estimated when they are first asked for and kept; those unused for
@@ -31,9 +31,12 @@ class DepthMaps {
   DepthMaps& operator=(const DepthMaps&) = delete;
 
   /// The map of a perspective; null if its picture is lost. Meanwhile: null if it is not there yet,
-  /// or one of fewer neighbours.
+  /// or one of fewer neighbours. Never waits for the thread.
   std::shared_ptr<const DepthMap> map_of(const std::vector<lightfield::Perspective>& perspectives,
                                          std::size_t index, const Eigen::Vector3d& focus);
+
+  /// True if nothing that was asked for is still to come.
+  bool complete();
 
  private:
   /// A perspective and its neighbours: all that a map comes from.
@@ -47,16 +50,21 @@ class DepthMaps {
 
     bool is_of(const Job& job) const;
   };
+  static Entry entry_of(const Job& job, std::shared_ptr<const DepthMap> map);
 
   void run();
+  void exchange();
   std::shared_ptr<const DepthMap> find(const Job& job, bool any_neighbours);
-  void keep(const Job& job, std::shared_ptr<const DepthMap> map);
+  void keep(Entry entry);
+
+  std::vector<Entry> entries_;  ///< used last come last
+  std::vector<Job> jobs_;       ///< still to come; asked for last come last, and are done first
+  bool has_news_ = false;       ///< of jobs that the thread does not know
 
   std::mutex mutex_;  // guards what follows
   std::condition_variable changed_;
-  std::vector<Entry> entries_;  ///< used last come last
-  std::vector<Job> jobs_;       ///< asked for last come last, and are done first
-  std::optional<Job> current_;
+  std::optional<std::vector<Job>> handed_over_;
+  std::vector<Entry> handed_back_;
   bool stopping_ = false;
 
   std::thread thread_;

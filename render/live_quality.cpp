@@ -1,13 +1,12 @@
 #include "render/live_quality.h"
 
-#include <sched.h>
-
 #include <algorithm>
 #include <exception>
 #include <string>
 #include <utility>
 
 #include "config/log.h"
+#include "config/step_back.h"
 #include "geometry/robust.h"
 
 namespace lumibox::render {
@@ -20,14 +19,6 @@ bool same(const Perspective& a, const Perspective& b) {
   return a.id == b.id && a.photo == b.photo &&
          a.world_from_camera.translation == b.world_from_camera.translation &&
          a.world_from_camera.rotation.coeffs() == b.world_from_camera.rotation.coeffs();
-}
-
-/// From now on the calling thread works only when no other wants to.
-void step_back() {
-  const sched_param none{};
-  if (sched_setscheduler(0, SCHED_IDLE, &none) != 0) {
-    config::log_warning("pictures are judged at the loop's own priority");
-  }
 }
 
 }  // namespace
@@ -136,7 +127,7 @@ void LiveQuality::tell() {
 }
 
 void LiveQuality::run() {
-  step_back();
+  config::step_back("pictures are judged");
   std::unique_lock lock(mutex_);
   bool idle = true;
   while (true) {

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+namespace lumibox::config {
+
+/// From now on the calling thread works only when no other wants to. It may be put aside for long,
+/// also while it holds a lock: who must not wait only tries. Where that is not allowed a warning
+/// says what (`"pictures are judged"`) competes with the loop.
+void step_back(const std::string& work);
+
+}  // namespace lumibox::config
