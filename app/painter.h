@@ -7,6 +7,8 @@
 #include "hal/image.h"
 #include "hal/offscreen/offscreen_display.h"
 #include "lightfield/perspective.h"
+#include "render/light_mean.h"
+#include "render/proxy_geometry.h"
 #include "render/renderer.h"
 #include "render/view.h"
 
@@ -31,6 +33,12 @@ class Painter {
                    const std::vector<lightfield::Perspective>& perspectives,
                    const render::Settings& settings);
 
+  /// The same through a wide aperture on the scene's shape (render::Bokeh). Where that is not
+  /// possible: on planes.
+  hal::Image paint_bokeh(const render::View& view,
+                         const std::vector<lightfield::Perspective>& perspectives,
+                         const render::Settings& settings, render::ProxyGeometry& proxy);
+
  private:
   void set_size(int width, int height);
 
@@ -38,6 +46,7 @@ class Painter {
   config::Render options_;
   std::unique_ptr<hal::OffscreenDisplay> display_;
   std::unique_ptr<render::Renderer> renderer_;  ///< lives in the display's context
+  std::unique_ptr<render::LightMean> mean_;     ///< likewise
 };
 
 }  // namespace lumibox::app

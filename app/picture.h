@@ -15,6 +15,7 @@ namespace lumibox::app {
 struct LightFieldPicture {
   std::vector<lightfield::Perspective> perspectives;
   render::Settings settings;
+  /// Mesh with a wide aperture: on planes as long as the view moves, at rest a render::Bokeh.
   render::Geometry geometry = render::Geometry::Plane;
 };
 

@@ -19,6 +19,7 @@ constexpr int kLeastRows = 8;       // of a refined view in one tick
 constexpr int kFirstBands = 8;      // until it is known how long a row takes
 constexpr double kBandShare = 0.8;  // of the budget
 constexpr int kTicksToRefineAgain = 30;
+constexpr double kLeastShare = 0.5;  // of the budget; with less left no rows are drawn
 
 bool same_perspective(const Perspective& a, const Perspective& b) {
   return a.id == b.id && a.photo == b.photo && a.gain == b.gain &&
@@ -32,6 +33,12 @@ bool same_picture(const LightFieldPicture& a, const LightFieldPicture& b) {
          a.settings.k == b.settings.k && a.settings.exponent == b.settings.exponent &&
          a.settings.focus == b.settings.focus &&
          std::ranges::equal(a.perspectives, b.perspectives, same_perspective);
+}
+
+/// True if at rest it is to be more than pictures on planes.
+bool has_bokeh(const LightFieldPicture& shown) {
+  return shown.geometry == render::Geometry::Mesh &&
+         shown.settings.aperture == render::Aperture::Wide && shown.settings.aperture_views > 0;
 }
 
 render::View scaled(const render::View& view, double scale) {
@@ -83,6 +90,7 @@ void Viewer::end_drawing() {
   gl_.reset();
   rest_.reset();
   refinement_.reset();
+  bokeh_.reset();
 }
 
 void Viewer::clear(const render::View& view, unsigned framebuffer) {
@@ -92,8 +100,8 @@ void Viewer::clear(const render::View& view, unsigned framebuffer) {
 void Viewer::draw(const LightFieldPicture& shown, const render::View& view, unsigned framebuffer,
                   double budget_ms) {
   follow(shown, view);
-  const bool rests = rest_->ticks > kTicksToRest && effort_.scale < 1.0;
-  if (!rests) {
+  const bool can_be_better = effort_.scale < 1.0 || has_bokeh(shown);
+  if (rest_->ticks <= kTicksToRest || !can_be_better) {
     draw_moving(shown, view, framebuffer, budget_ms);
     return;
   }
@@ -111,6 +119,7 @@ void Viewer::follow(const LightFieldPicture& shown, const render::View& view) {
   }
   rest_ = Rest{view, shown, 0};
   refinement_.reset();
+  bokeh_.reset();
 }
 
 void Viewer::draw_moving(const LightFieldPicture& shown, const render::View& view,
@@ -133,20 +142,37 @@ void Viewer::draw_moving(const LightFieldPicture& shown, const render::View& vie
   note(effort, shown);
 }
 
-/// Draws some more of the view that rests: what it is projected onto, then row by row. When it is
-/// complete it begins again now and then, as depth maps may have come.
+/// Draws some more of the view that rests: what it is projected onto, then row by row, then what is
+/// better still. On its own it begins again now and then, as depth maps may have come.
 void Viewer::refine(double budget_ms) {
+  const bool drawn = refinement_ && refinement_->rows == rest_->view.camera.height();
+  if (drawn && bokeh_ && bokeh_->is_possible()) {
+    if (!bokeh_->is_complete()) refine_bokeh(budget_ms);
+  } else if (!refinement_ || (drawn && ++refinement_->ticks >= kTicksToRefineAgain)) {
+    begin_refinement();
+    // Without a smaller picture to go on showing it is drawn at once, as when it moved.
+    if (effort_.scale == 1.0 && !refinement_->complete) refine_planes(budget_ms);
+  } else if (!drawn) {
+    refine_planes(budget_ms);
+  }
+}
+
+void Viewer::begin_refinement() {
   const auto& [view, shown, ticks] = *rest_;
   const int height = view.camera.height();
-  const bool again = refinement_ && refinement_->rows == height;
-  if (again && ++refinement_->ticks < kTicksToRefineAgain) return;
-  if (!refinement_ || again) {
-    gl_->refined.set_size(view.camera.width(), height);
-    refinement_ = Refinement{proxy_.fit(shown.settings, shown.geometry, view, shown.perspectives),
-                             0, again, 0};
-    if (!again) rows_per_tick_ = std::max(kLeastRows, height / kFirstBands);
-    return;
-  }
+  const bool again = refinement_.has_value();
+  gl_->refined.set_size(view.camera.width(), height);
+  const render::Geometry geometry = has_bokeh(shown) ? render::Geometry::Plane : shown.geometry;
+  refinement_ =
+      Refinement{proxy_.fit(shown.settings, geometry, view, shown.perspectives), 0, again, 0};
+  if (has_bokeh(shown)) bokeh_.emplace(view, shown.perspectives, shown.settings);
+  if (again) return;
+  rows_per_tick_ = effort_.scale == 1.0 ? height : std::max(kLeastRows, height / kFirstBands);
+}
+
+void Viewer::refine_planes(double budget_ms) {
+  const auto& [view, shown, ticks] = *rest_;
+  const int height = view.camera.height();
   const std::int64_t begin_ns = clock_.now_ns();
   const int rows = std::min(rows_per_tick_, height - refinement_->rows);
   gl_->renderer.draw(view, shown.perspectives, refinement_->settings, gl_->refined.framebuffer(),
@@ -154,10 +180,30 @@ void Viewer::refine(double budget_ms) {
   glFinish();
   refinement_->rows += rows;
   refinement_->complete = refinement_->complete || refinement_->rows == height;
-  const double ms = measure_ms(begin_ns);
+  fit_rows(rows, measure_ms(begin_ns), budget_ms);
+  figures_ = fmt::format("at rest, {} of {} rows refined", refinement_->rows, height);
+}
+
+/// Either what the next view is projected onto, or some of its rows: both take their time.
+void Viewer::refine_bokeh(double budget_ms) {
+  const std::int64_t begin_ns = clock_.now_ns();
+  if (!bokeh_->prepare(proxy_) || !bokeh_->is_possible()) return;
+  const double left_ms = budget_ms - measure_ms(begin_ns);
+  if (left_ms < kLeastShare * budget_ms) return;
+  const std::int64_t prepared_ns = clock_.now_ns();
+  const int rows = bokeh_->draw(gl_->renderer, gl_->mean, rows_per_tick_);
+  glFinish();
+  fit_rows(rows, measure_ms(prepared_ns), budget_ms);
+  if (bokeh_->is_complete()) gl_->mean.draw(gl_->refined.framebuffer());
+  figures_ =
+      fmt::format("at rest, {} of {} views of the aperture", bokeh_->drawn(), bokeh_->views());
+}
+
+/// As many rows in the next tick as fit, given how long some took.
+void Viewer::fit_rows(int rows, double ms, double budget_ms) {
+  const int height = rest_->view.camera.height();
   const double fitting = ms > 0.0 ? rows * kBandShare * budget_ms / ms : height;
   rows_per_tick_ = std::clamp(static_cast<int>(fitting), kLeastRows, height);
-  figures_ = fmt::format("at rest, {} of {} rows refined", refinement_->rows, height);
 }
 
 double Viewer::measure_ms(std::int64_t since_ns) const {

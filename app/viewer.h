@@ -8,6 +8,7 @@
 #include "app/picture.h"
 #include "config/config.h"
 #include "hal/clock.h"
+#include "render/bokeh.h"
 #include "render/canvas.h"
 #include "render/governor.h"
 #include "render/read_ahead.h"
@@ -17,9 +18,10 @@ namespace lumibox::app {
 
 /// Shows light fields on a framebuffer in the time there is. A view that moves is drawn with the
 /// effort that render::Governor allows; one that rests is refined to full quality in a canvas, some
-/// rows in each tick so that none is late, and shown when it is complete. On a virtual clock
-/// nothing takes time, and everything is at full quality at once. All calls need the same current
-/// context, the destructor included.
+/// rows in each tick so that none is late, and shown when it is complete; after it, with a wide
+/// aperture on the scene's shape, a render::Bokeh. On a virtual clock nothing takes time, and
+/// everything but the bokeh, of which each tick draws a view, is at full quality at once. All calls
+/// need the same current context, the destructor included.
 class Viewer {
  public:
   Viewer(const hal::Clock& clock, const config::Render& options, render::Estimating estimating);
@@ -54,6 +56,7 @@ class Viewer {
     render::Renderer renderer;
     render::Canvas moving;  ///< the last view that moved, if it was drawn small
     render::Canvas refined;
+    render::LightMean mean;
   };
   /// A view that has not moved by a pixel since it was first seen.
   struct Rest {
@@ -73,6 +76,10 @@ class Viewer {
   void draw_moving(const LightFieldPicture& shown, const render::View& view, unsigned framebuffer,
                    double budget_ms);
   void refine(double budget_ms);
+  void begin_refinement();
+  void refine_planes(double budget_ms);
+  void refine_bokeh(double budget_ms);
+  void fit_rows(int rows, double ms, double budget_ms);
   double measure_ms(std::int64_t since_ns) const;
   void note(const render::Effort& effort, const LightFieldPicture& shown);
 
@@ -83,6 +90,7 @@ class Viewer {
   render::Effort effort_;  ///< of the last view that moved
   std::optional<Rest> rest_;
   std::optional<Refinement> refinement_;
+  std::optional<render::Bokeh> bokeh_;  ///< of the refined view
   int rows_per_tick_ = 0;
   std::string figures_;
   std::unique_ptr<render::ReadAheadThread> reader_;  ///< null: pictures are read at once

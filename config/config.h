@@ -49,13 +49,14 @@ struct Capture {
 inline constexpr double kLargestExponent = 64.0;
 
 struct Render {
-  std::string geometry = "mesh";       ///< that the small aperture shows pictures on
+  std::string geometry = "mesh";       ///< that pictures are shown on
   int k = 40;                          ///< perspectives blended (thesis 3: 40 to 60)
   int small_aperture_max_k = 40;       ///< cap of k in small aperture mode (thesis 3.2)
   double exponent = 2.0;               ///< of the weights in wide aperture mode (thesis 3.2)
   double feather_px = 24.0;            ///< width of the faded border (thesis 3)
   double small_aperture_alpha = 0.4;   ///< alpha of the nearer half (thesis 3.2)
   double small_aperture_stop = 0.004;  ///< transmittance at which a pixel is done
+  int aperture_views = 64;             ///< of the smooth wide aperture of a view at rest
   int texture_mb = 128;                ///< MiB of pictures kept on the GPU
 };
 

@@ -52,8 +52,8 @@ Settings at_effort(Settings settings, const Effort& quality) {
 }
 
 std::size_t Governor::kind_of(const Wish& wish) {
-  if (wish.geometry == Geometry::Mesh) return 2;
-  return wish.aperture == Aperture::Wide ? 1 : 0;
+  if (wish.aperture == Aperture::Wide) return 1;
+  return wish.geometry == Geometry::Mesh ? 2 : 0;
 }
 
 Governor::Ladder Governor::make_ladder(std::size_t kind) {

@@ -41,6 +41,9 @@ class ProxyGeometry {
                const std::vector<lightfield::Perspective>& perspectives,
                const std::optional<std::vector<std::size_t>>& counted = std::nullopt);
 
+  /// True if nothing that was needed so far is still to come.
+  bool is_complete() { return maps_.complete(); }
+
  private:
   Eigen::Vector3d focal_point(const View& view, const Eigen::Vector3d& otherwise) const;
   std::shared_ptr<const Shape> shape_of(const View& view,

@@ -71,7 +71,7 @@ Contribution contribution_on_shape(const Eigen::Vector3d& pixel_of_view, double 
 }
 
 /// Thesis 3.2, wide aperture: weighted mean; on a shape the closer ones count more.
-Eigen::Vector3d blend_wide(const std::vector<Contribution>& contributions, bool on_shape) {
+CoveredLight blend_wide(const std::vector<Contribution>& contributions, bool on_shape) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double close_total = 0.0;
   double total = 0.0;
@@ -80,19 +80,20 @@ Eigen::Vector3d blend_wide(const std::vector<Contribution>& contributions, bool 
     close_total += c.closeness * c.weight;
     total += c.weight;
   }
-  if (!(close_total > 0.0)) return Eigen::Vector3d::Zero();
   const double covered =
       total / std::max(total, least_total_weight(contributions.size(), on_shape));
-  return sum * (covered / close_total);
+  if (!(close_total > 0.0)) return {Eigen::Vector3d::Zero(), covered};
+  return {sum * (covered / close_total), covered};
 }
 
 /// Thesis 3.2, small aperture: far to near, each "over" what is there.
-Eigen::Vector3d blend_small(const std::vector<Contribution>& contributions) {
-  Eigen::Vector3d light = Eigen::Vector3d::Zero();
+CoveredLight blend_small(const std::vector<Contribution>& contributions) {
+  CoveredLight blended;
   for (auto c = contributions.rbegin(); c != contributions.rend(); ++c) {
-    light = c->weight * c->light + (1.0 - c->weight) * light;
+    blended.light = c->weight * c->light + (1.0 - c->weight) * blended.light;
+    blended.covered = c->weight + (1.0 - c->weight) * blended.covered;
   }
-  return light;
+  return blended;
 }
 
 using Pixels = std::shared_ptr<const hal::Image>;
@@ -106,19 +107,19 @@ std::vector<Pixels> pixels_of(const std::vector<Layer>& layers,
 
 }  // namespace
 
-hal::Image render_reference(const View& view,
-                            const std::vector<lightfield::Perspective>& perspectives,
-                            const Settings& settings) {
+std::vector<CoveredLight> reference_light(const View& view,
+                                          const std::vector<lightfield::Perspective>& perspectives,
+                                          const Settings& settings) {
   std::vector<Layer> layers;
   std::vector<Pixels> pixels;
   do {  // a picture that turns out to be lost is left out from then on
     layers = plan_view(view, perspectives, settings);
     pixels = pixels_of(layers, perspectives);
   } while (std::ranges::find(pixels, nullptr) != pixels.end());
-  hal::Image image(view.camera.width(), view.camera.height(), 3);
+  std::vector<CoveredLight> light;
   std::vector<Contribution> contributions(layers.size());
-  for (int v = 0; v < image.height(); ++v) {
-    for (int u = 0; u < image.width(); ++u) {
+  for (int v = 0; v < view.camera.height(); ++v) {
+    for (int u = 0; u < view.camera.width(); ++u) {
       const Ray ray = ray_of_pixel(view, u, v);
       for (std::size_t i = 0; i < layers.size(); ++i) {
         const lightfield::Perspective& perspective = perspectives[layers[i].perspective];
@@ -128,15 +129,33 @@ hal::Image render_reference(const View& view,
                                         layers[i], perspective, *pixels[i], settings)
                 : contribution(ray, layers[i], perspective, *pixels[i], settings);
       }
-      const Eigen::Vector3d light = settings.shape || settings.aperture == Aperture::Wide
-                                        ? blend_wide(contributions, settings.shape != nullptr)
-                                        : blend_small(contributions);
+      light.push_back(settings.shape || settings.aperture == Aperture::Wide
+                          ? blend_wide(contributions, settings.shape != nullptr)
+                          : blend_small(contributions));
+    }
+  }
+  return light;
+}
+
+hal::Image stored_picture(const std::vector<CoveredLight>& light, int width, int height) {
+  hal::Image image(width, height, 3);
+  auto pixel = light.begin();
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u, ++pixel) {
       for (int channel = 0; channel < 3; ++channel) {
-        image.at(u, v)[channel] = static_cast<std::uint8_t>(std::lround(stored_of(light[channel])));
+        const double stored = stored_of(pixel->light[channel]);
+        image.at(u, v)[channel] = static_cast<std::uint8_t>(std::lround(stored));
       }
     }
   }
   return image;
+}
+
+hal::Image render_reference(const View& view,
+                            const std::vector<lightfield::Perspective>& perspectives,
+                            const Settings& settings) {
+  return stored_picture(reference_light(view, perspectives, settings), view.camera.width(),
+                        view.camera.height());
 }
 
 }  // namespace lumibox::render

@@ -131,10 +131,19 @@ std::vector<Layer> visible_layers(const View& view,
   return layers;
 }
 
-void assign_wide_weights(std::vector<Layer>& layers, std::optional<double> first_left_out,
-                         double exponent) {
+std::vector<double> penalties_of(const std::vector<Layer>& layers) {
   std::vector<double> penalties;
   for (const Layer& layer : layers) penalties.push_back(layer.penalty);
+  return penalties;
+}
+
+std::size_t most_layers(const Settings& settings) {
+  return std::min(static_cast<std::size_t>(std::max(settings.k, 0)), kMaxLayers);
+}
+
+void assign_wide_weights(std::vector<Layer>& layers, std::optional<double> first_left_out,
+                         double exponent) {
+  const std::vector<double> penalties = penalties_of(layers);
   const double limit = first_left_out ? *first_left_out : limit_beyond(penalties);
   const std::vector<double> weights = wide_weights(penalties, limit, exponent);
   for (std::size_t i = 0; i < layers.size(); ++i) layers[i].weight = weights[i];
@@ -168,6 +177,7 @@ Settings settings_from(const config::Render& options, Aperture aperture,
   settings.feather_px = options.feather_px;
   settings.small_aperture_alpha = options.small_aperture_alpha;
   settings.small_aperture_stop = options.small_aperture_stop;
+  settings.aperture_views = options.aperture_views;
   return settings;
 }
 
@@ -177,10 +187,18 @@ Settings augmented_settings_from(const config::Render& options, const Eigen::Vec
   return settings;
 }
 
+double aperture_limit(const View& view, const std::vector<lightfield::Perspective>& perspectives,
+                      const Settings& settings) {
+  const std::size_t k = most_layers(settings);
+  const std::vector<double> penalties =
+      penalties_of(visible_layers(view, perspectives, settings, k + 1));
+  return penalties.size() > k ? penalties.back() : limit_beyond(penalties);
+}
+
 std::vector<Layer> plan_view(const View& view,
                              const std::vector<lightfield::Perspective>& perspectives,
                              const Settings& settings) {
-  const std::size_t k = std::min(static_cast<std::size_t>(std::max(settings.k, 0)), kMaxLayers);
+  const std::size_t k = most_layers(settings);
   std::vector<Layer> layers = visible_layers(view, perspectives, settings, k + 1);
   std::optional<double> first_left_out;
   if (layers.size() > k) {

@@ -37,6 +37,7 @@ struct Settings {
   double feather_px = 24.0;                         ///< width of the faded border
   double small_aperture_alpha = 0.4;                ///< thesis 3.2
   double small_aperture_stop = 0.004;               ///< transmittance at which a pixel is done
+  int aperture_views = 64;                          ///< of a Bokeh, at most LightMean::kMost
   /// The scene's shape in the view: pictures are projected onto that instead of planes, and at each
   /// pixel those count most that see it nearly as the view does; `aperture` means nothing then.
   std::shared_ptr<const Shape> shape;
@@ -87,6 +88,11 @@ double closeness(const Eigen::Vector3d& ray_of_view, const Eigen::Vector3d& ray_
 /// Whether a perspective that sees something at inverse depth `seen` sees a point that would be at
 /// `inverse_depth` there: from 1 smoothly to kHidden.
 double visibility(double seen, double inverse_depth);
+
+/// Penalty at which the weights of a wide aperture reach 0: that of the first perspective left out,
+/// or of where it would be. 0 without perspectives.
+double aperture_limit(const View& view, const std::vector<lightfield::Perspective>& perspectives,
+                      const Settings& settings);
 
 /// Layers of a view in order of increasing penalty: selection, proxy planes and weights of
 /// thesis 3. Perspectives without a picture (or whose is lost) and those whose plane cannot be seen

@@ -25,14 +25,9 @@ render::Settings settings_of(const RenderOptions& options, config::Render render
   return render::settings_from(render, aperture, subject.center);
 }
 
-/// A wide aperture is focused on a plane; the small one shows what the configuration says.
+/// The small aperture shows what the configuration says, the wide one the recorded pictures.
 render::Geometry geometry_of(const RenderOptions& options, const config::Render& render) {
-  const bool wide = options.mode == "wide";
-  if (wide && options.geometry == "mesh") {
-    throw config::InputError(
-        "--geometry mesh: is sharp everywhere; --mode wide focuses on a plane: plane or focal");
-  }
-  const std::string usual = wide ? "plane" : render.geometry;
+  const std::string usual = options.mode == "wide" ? "plane" : render.geometry;
   return render::geometry_named(options.geometry.value_or(usual));
 }
 
@@ -56,15 +51,19 @@ void render_views(const RenderOptions& options) {
       options.calibration ? geometry::Camera(hal::read_calibration(*options.calibration))
                           : *perspectives.front().camera;
   const render::Geometry geometry = geometry_of(options, config);
+  const bool bokeh =
+      settings.aperture == render::Aperture::Wide && geometry == render::Geometry::Mesh;
   render::ProxyGeometry proxy(capture.points, render::Estimating::AtOnce);
   Painter painter(options.reference ? Exactness::Exact : Exactness::Fast, config);
   make_folder(options.out);
   Progress progress("rendering", static_cast<std::int64_t>(views.size()));
   for (std::size_t i = 0; i < views.size(); ++i) {
     const render::View view{camera.undistorted(), views[i].world_from_camera};
-    hal::write_png(
-        options.out / fmt::format("{:06}.png", i),
-        painter.paint(view, perspectives, proxy.fit(settings, geometry, view, perspectives)));
+    const hal::Image picture =
+        bokeh
+            ? painter.paint_bokeh(view, perspectives, settings, proxy)
+            : painter.paint(view, perspectives, proxy.fit(settings, geometry, view, perspectives));
+    hal::write_png(options.out / fmt::format("{:06}.png", i), picture);
     progress.show(static_cast<std::int64_t>(i + 1));
   }
   require_all_pictures(capture);

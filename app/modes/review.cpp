@@ -79,10 +79,18 @@ Picture ReviewMode::draw(const Moment& moment) const {
   picture.world_from_view = world_from_view_;
   picture.reticle = wide;  // what the focus goes to
   const config::Render& options = session_.config.render;
-  picture.light_field = LightFieldPicture{
-      equally_bright_perspectives(), render::settings_from(options, aperture_, focus()),
-      wide ? render::Geometry::Plane : render::geometry_named(options.geometry)};
+  picture.light_field =
+      LightFieldPicture{equally_bright_perspectives(),
+                        render::settings_from(options, aperture_, focus()), geometry()};
   return picture;
+}
+
+/// A wide aperture focuses on S, not on what serves the whole view.
+render::Geometry ReviewMode::geometry() const {
+  const auto geometry = render::geometry_named(session_.config.render.geometry);
+  const bool moves_focus =
+      aperture_ == render::Aperture::Wide && geometry == render::Geometry::Focal;
+  return moves_focus ? render::Geometry::Plane : geometry;
 }
 
 std::vector<lightfield::Perspective> ReviewMode::equally_bright_perspectives() const {

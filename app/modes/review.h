@@ -31,6 +31,7 @@ class ReviewMode : public Mode {
 
   std::optional<geometry::Pose> pose_of_box(const Moment& moment) const;
   void stand_at_next_disagreeing();
+  render::Geometry geometry() const;
   std::vector<lightfield::Perspective> equally_bright_perspectives() const;
   std::string advice(const Moment& moment) const;
   void wipe(Press press);

@@ -191,5 +191,8 @@ void main() {
   float covered = total / max(total, least_total_weight);
   sum = near_total > 0.0 ? sum * (covered / near_total) : vec3(0.0);
 #endif
-  color = vec4(stored_of(sum), 1.0);
+#ifdef SMALL_APERTURE
+  float covered = 1.0 - transmittance;
+#endif
+  color = vec4(stored_of(sum), covered);
 }

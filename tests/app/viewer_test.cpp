@@ -115,6 +115,49 @@ TEST_F(ViewerTest, WhatIsShownAtRestFollowsTheLightField) {
   EXPECT_EQ(drawn, full(0.0));
 }
 
+/// All at once what is drawn at rest bit by bit.
+hal::Image bokeh_of(const LightFieldPicture& shown, const render::View& view,
+                    hal::OffscreenDisplay& display) {
+  render::Renderer renderer;
+  render::LightMean mean;
+  render::ProxyGeometry proxy({}, render::Estimating::AtOnce);
+  render::Bokeh bokeh(view, shown.perspectives, shown.settings);
+  while (bokeh.prepare(proxy) && bokeh.is_possible() && !bokeh.is_complete()) {
+    bokeh.draw(renderer, mean, view.camera.height());
+  }
+  mean.draw(display.framebuffer());
+  return display.read_back();
+}
+
+TEST_F(ViewerTest, AWideApertureOnTheShapeIsSmoothAtRest) {
+  shown_.settings.aperture = render::Aperture::Wide;
+  shown_.settings.aperture_views = 9;
+  const hal::Image on_planes = full(0.1);
+  shown_.geometry = render::Geometry::Mesh;
+  const render::View view{make_camera(160, 120), look_at({0.1, 0.2, -3.8}, {0, 0, 0})};
+  const hal::Image smooth = bokeh_of(shown_, view, *display_);
+  EXPECT_NE(smooth, on_planes);
+  for (int tick = 0; tick < 6; ++tick) EXPECT_EQ(draw(0.1), on_planes) << "moving: " << tick;
+  int ticks = 0;
+  while (draw(0.1) == on_planes && ticks < 20) ++ticks;
+  EXPECT_EQ(ticks, 9) << "a view in each tick of a clock on which nothing takes time";
+  EXPECT_EQ(draw(0.1), smooth);
+  EXPECT_NE(draw(0.3), smooth) << "until it moves";
+}
+
+TEST_F(ViewerTest, TheSmoothApertureComesOnASlowMachineToo) {
+  shown_.settings.aperture = render::Aperture::Wide;
+  shown_.settings.aperture_views = 2;
+  shown_.geometry = render::Geometry::Mesh;
+  draw_slowly();
+  const render::View view{make_camera(160, 120), look_at({0.1, 0.2, -3.8}, {0, 0, 0})};
+  const hal::Image smooth = bokeh_of(shown_, view, *display_);
+  clock_.step_ns = 3 * kMs;
+  hal::Image drawn = draw(0.1);
+  for (int tick = 0; tick < 60; ++tick) drawn = draw(0.1);
+  EXPECT_EQ(drawn, smooth);
+}
+
 TEST(Motion, CountsTurningAndMovingInPixels) {
   const geometry::Camera camera = make_camera(160, 120);
   const double f = camera.profile().fx;
