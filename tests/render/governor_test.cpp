@@ -52,20 +52,23 @@ TEST(Governor, WhatAChangeCostsIsNotTheUsualCost) {
   Governor governor;
   for (int i = 0; i < 20; ++i) {
     EXPECT_EQ(governor.choose(kMesh, 15.0), kAll);
-    governor.measured(i == 0 ? 200.0 : 10.0);
+    governor.measured(i < 2 ? 200.0 : 10.0);
   }
   governor.choose(kWide, 15.0);
   governor.measured(8.0);
   for (int i = 0; i < 20; ++i) {
     EXPECT_EQ(governor.choose(kMesh, 15.0), kAll) << "another kind has been shown meanwhile";
-    governor.measured(i == 0 ? 200.0 : 10.0);
+    governor.measured(i < 2 ? 200.0 : 10.0);
   }
 }
 
 TEST(Governor, AfterAFallTheFirstPictureDoesNotCountEither) {
   Governor governor;
-  const Effort fallen = run(governor, kMesh, 25.0, 15.0, 4);
+  run(governor, kMesh, 25.0, 15.0, 3);
+  const Effort fallen = governor.choose(kMesh, 15.0);
   EXPECT_EQ(fallen, (Effort{Geometry::Mesh, 0.71, 1.0}));
+  governor.measured(200.0);
+  EXPECT_EQ(governor.choose(kMesh, 15.0), fallen);
   governor.measured(200.0);
   EXPECT_EQ(run(governor, kMesh, 25.0, 15.0, 30), fallen);
 }
