@@ -1,7 +1,6 @@
 #include "app/button_script.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -16,25 +15,9 @@
 namespace lumibox::app {
 namespace {
 
-constexpr std::array<std::pair<const char*, hal::Button>, 5> kButtons = {{
-    {"main", hal::Button::Main},
-    {"review", hal::Button::Review},
-    {"plus", hal::Button::Plus},
-    {"minus", hal::Button::Minus},
-    {"wipe", hal::Button::Wipe},
-}};
-
 std::optional<hal::Button> button_named(const std::string& name) {
-  for (const auto& [known, button] : kButtons) {
-    if (name == known) {
-      return button;
-    }
-  }
-  return std::nullopt;
-}
-
-std::string name_of(hal::Button button) {
-  return std::ranges::find(kButtons, button, [](const auto& entry) { return entry.second; })->first;
+  const auto* const button = std::ranges::find(hal::kAllButtons, name, hal::name_of);
+  return button == hal::kAllButtons.end() ? std::nullopt : std::optional(*button);
 }
 
 struct ScriptLine {
@@ -97,7 +80,7 @@ std::vector<hal::ButtonEvent> read_button_script(const std::filesystem::path& fi
     const auto before = released_ns.find(line->gesture.button);
     if (before != released_ns.end() && press.front().timestamp_ns < before->second) {
       throw config::InputError(file, number,
-                               name_of(line->gesture.button) + " is still held, until " +
+                               hal::name_of(line->gesture.button) + " is still held, until " +
                                    std::to_string(1e-9 * static_cast<double>(before->second)) +
                                    " s; expected a later press");
     }

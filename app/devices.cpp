@@ -3,6 +3,7 @@
 #include <charconv>
 #include <filesystem>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -10,6 +11,10 @@
 
 #include "app/button_script.h"
 #include "config/error.h"
+#include "hal/evdev/evdev_buttons.h"
+#include "hal/gpiod/gpiod_buttons.h"
+#include "hal/gpiod/gpiod_led.h"
+#include "hal/merged_buttons.h"
 #include "hal/offscreen/offscreen_display.h"
 #include "hal/replay/replay_camera.h"
 #include "hal/scripted/scripted_buttons.h"
@@ -85,17 +90,61 @@ std::unique_ptr<hal::Camera> open_camera(const std::string& text, const std::str
   refuse("camera", text, "sim:SCENE.toml and replay:SEQUENCE");
 }
 
-std::unique_ptr<hal::Buttons> open_buttons(const std::string& text, double long_press_s,
-                                           const hal::Clock& clock) {
+/// Buttons that a hand presses go by the system's time.
+void refuse_virtual_clock(const std::string& kind, const config::Config& config) {
+  if (config.devices.clock == "virtual") {
+    throw config::InputError("devices.buttons: \"" + kind +
+                             "\" with devices.clock = \"virtual\", which no hand keeps up with; "
+                             "expected \"system\"");
+  }
+}
+
+std::unique_ptr<hal::Buttons> open_buttons_of(const std::string& text, const config::Config& config,
+                                              const hal::Clock& clock) {
   const Name name = split(text);
+  const config::Controls& controls = config.controls;
   if (name.kind == "script") {
     return std::make_unique<hal::ScriptedButtons>(
-        read_button_script(what_of(name, "buttons", "script:FILE"), long_press_s), clock);
+        read_button_script(what_of(name, "buttons", "script:FILE"), controls.long_press_s), clock);
+  }
+  if (text == "gpio") {
+    refuse_virtual_clock(name.kind, config);
+    return std::make_unique<hal::GpiodButtons>(config.gpio, controls.stuck_s, clock);
+  }
+  if (name.kind == "evdev") {
+    const std::string& wanted =
+        what_of(name, "buttons", "evdev:any, evdev:/dev/input/... or evdev:NAME");
+    refuse_virtual_clock(name.kind, config);
+    return std::make_unique<hal::EvdevButtons>(wanted, config.evdev, controls.stuck_s, clock);
   }
   if (text == "none") {
     return std::make_unique<hal::ScriptedButtons>(std::vector<hal::ButtonEvent>{}, clock);
   }
-  refuse("buttons", text, "none and script:FILE");
+  refuse("buttons", text, "none, gpio, evdev:any, evdev:PATH, evdev:NAME and script:FILE");
+}
+
+/// One kind, or several with commas between.
+std::unique_ptr<hal::Buttons> open_buttons(const config::Config& config, const hal::Clock& clock) {
+  std::vector<std::unique_ptr<hal::Buttons>> sources;
+  std::istringstream kinds(config.devices.buttons + ",");
+  for (std::string kind; std::getline(kinds >> std::ws, kind, ',');) {
+    kind.erase(kind.find_last_not_of(' ') + 1);
+    sources.push_back(open_buttons_of(kind, config, clock));
+  }
+  return std::make_unique<hal::MergedButtons>(std::move(sources));
+}
+
+std::unique_ptr<hal::StatusLed> open_status_led(const config::Config& config) {
+  const std::string& text = config.devices.status_led;
+  const Name name = split(text);
+  if (text == "none") {
+    return nullptr;
+  }
+  if (name.kind == "gpio") {
+    return std::make_unique<hal::GpiodLed>(what_of(name, "status_led", "gpio:LINE"),
+                                           config.gpio.led_active_low);
+  }
+  refuse("status_led", text, "none and gpio:LINE");
 }
 
 /// "640x480"
@@ -137,7 +186,8 @@ Devices open_devices(const config::Config& config) {
   devices.clock = open_clock(options.clock);
   devices.lockstep = options.clock == "virtual";
   devices.camera = open_camera(options.camera, options.calibration, *devices.clock);
-  devices.buttons = open_buttons(options.buttons, config.controls.long_press_s, *devices.clock);
+  devices.buttons = open_buttons(config, *devices.clock);
+  devices.status_led = open_status_led(config);
   devices.display = open_display(options.display);
   devices.display->make_current();
   devices.camera->start();

@@ -7,6 +7,7 @@
 #include "hal/camera.h"
 #include "hal/clock.h"
 #include "hal/display.h"
+#include "hal/status_led.h"
 
 namespace lumibox::app {
 
@@ -17,7 +18,8 @@ struct Devices {
   std::unique_ptr<hal::Camera> camera;
   std::unique_ptr<hal::Buttons> buttons;
   std::unique_ptr<hal::Display> display;
-  bool lockstep = false;  ///< time is virtual: nothing may run beside the loop
+  std::unique_ptr<hal::StatusLed> status_led;  ///< none: the box has no lamp
+  bool lockstep = false;                       ///< time is virtual: nothing may run beside the loop
 };
 
 /// The one place where backends are chosen. Opens what `config.devices` names (config.h lists the

@@ -70,6 +70,7 @@ void Loop::tick() {
   if (decision.record) {
     record(moment);
   }
+  light(decision, moment);
   recorder_.keep_map(moment);
   session_.quality = quality_.watch(recorder_.light_field(), moment.map.points);
   show(modes_.draw(moment));
@@ -99,10 +100,20 @@ void Loop::record(const Moment& moment) {
   screen_.upload(recorder_.light_field().perspectives().back());
 }
 
+void Loop::light(const Decision& decision, const Moment& moment) {
+  if (devices_.status_led) {
+    const bool recording = decision.recording && moment.tracked.world_from_camera.has_value();
+    devices_.status_led->light(lamp_.is_lit(recording, decision.record, moment.now_ns));
+  }
+}
+
 void Loop::show(Picture picture) {
   picture_ = std::move(picture);
   if (devices_.camera->state() == hal::CameraState::Lost) {
     picture_.alerts.emplace_back("the camera is gone; waiting for it");
+  }
+  if (const auto error = devices_.buttons->error()) {
+    picture_.alerts.push_back("buttons: " + *error);
   }
   if (const auto error = recorder_.error()) {
     picture_.alerts.push_back("not stored: " + *error);

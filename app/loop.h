@@ -9,6 +9,7 @@
 
 #include "app/devices.h"
 #include "app/gestures.h"
+#include "app/lamp.h"
 #include "app/metronome.h"
 #include "app/modes/modes.h"
 #include "app/recorder.h"
@@ -61,6 +62,7 @@ class Loop {
   const Moment& look();
   void hold_exposure(bool hold);
   void record(const Moment& moment);
+  void light(const Decision& decision, const Moment& moment);
   void show(Picture picture);
   std::vector<std::string> figures() const;
 
@@ -78,6 +80,7 @@ class Loop {
   render::LiveQuality quality_;
   Picture picture_;
   bool exposure_held_ = false;
+  Lamp lamp_;
   double work_ms_ = 0.0;  ///< of the tick before
   LoopStatistics statistics_;
 };

@@ -15,3 +15,6 @@ pkg_check_modules(TURBOJPEG REQUIRED IMPORTED_TARGET libturbojpeg)
 pkg_check_modules(SPNG REQUIRED IMPORTED_TARGET spng)
 pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
 pkg_check_modules(GLES REQUIRED IMPORTED_TARGET glesv2)
+pkg_check_modules(EVDEV REQUIRED IMPORTED_TARGET libevdev)
+pkg_check_modules(GPIOD REQUIRED IMPORTED_TARGET libgpiod)  # 1.x or 2.x
+string(REGEX MATCH "^[0-9]+" gpiod_major ${GPIOD_VERSION})

@@ -78,15 +78,43 @@ struct Calibration {
 
 struct Controls {
   double long_press_s = 0.6;     ///< held this long, a press is a long one
+  double stuck_s = 60.0;         ///< held this long, a button is stuck and says nothing more
   double orbit_period_s = 12.0;  ///< one round of the automatic orbit in review
+};
+
+/// Buttons and a lamp that are wired to the board. A line is NAME, or CHIP:OFFSET with the chip's
+/// name, label, path or number; a button without a line is not there.
+struct Gpio {
+  std::string main;
+  std::string review;
+  std::string plus;
+  std::string minus;
+  std::string wipe;
+  bool active_low = true;        ///< a button that is down pulls its line to ground
+  std::string bias = "pull-up";  ///< as-is, pull-up, pull-down or disabled
+  double debounce_ms = 10.0;     ///< quiet after which a switch has done bouncing
+  bool led_active_low = false;   ///< the lamp is lit when its line is at ground
+};
+
+/// Keys of keyboards and remotes: for each button names from linux/input-event-codes.h, any of
+/// which is that button.
+struct Evdev {
+  std::string main = "KEY_ENTER KEY_KPENTER KEY_SPACE KEY_OK KEY_SELECT KEY_PLAYPAUSE KEY_CAMERA";
+  std::string review = "KEY_R KEY_TAB KEY_MENU KEY_INFO";
+  std::string plus = "KEY_EQUAL KEY_KPPLUS KEY_UP KEY_PAGEUP KEY_VOLUMEUP";
+  std::string minus = "KEY_MINUS KEY_KPMINUS KEY_DOWN KEY_PAGEDOWN KEY_VOLUMEDOWN";
+  std::string wipe = "KEY_BACKSPACE KEY_DELETE KEY_BACK";
+  bool grab = false;  ///< what the devices say is for the box alone
 };
 
 /// What the box is made of; app/devices.cpp knows the kinds.
 struct Devices {
-  std::string clock = "system";               ///< system, or virtual: as fast as the work allows
-  std::string camera;                         ///< sim:SCENE.toml or replay:SEQUENCE
-  std::string calibration;                    ///< of the camera, in place of a recording's own
-  std::string buttons = "none";               ///< none, or script:FILE
+  std::string clock = "system";  ///< system, or virtual: as fast as the work allows
+  std::string camera;            ///< sim:SCENE.toml or replay:SEQUENCE
+  std::string calibration;       ///< of the camera, in place of a recording's own
+  /// none, or one or several of script:FILE, gpio, evdev:any, evdev:PATH, evdev:NAME; with commas
+  std::string buttons = "none";
+  std::string status_led = "none";            ///< none, or gpio:LINE
   std::string display = "offscreen:640x480";  ///< offscreen:WIDTHxHEIGHT
 };
 
@@ -103,6 +131,8 @@ struct Config {
   Aperture aperture;
   Calibration calibration;
   Controls controls;
+  Gpio gpio;
+  Evdev evdev;
   Devices devices;
   Log log;
 };

@@ -18,6 +18,7 @@ class CaptureMode : public Mode {
   ModeId press(const Gesture& gesture, const Moment& moment) override;
   ModeId update(const Moment& moment) override;
   bool wants_to_record(const Moment& moment) const override;
+  bool is_recording() const override { return !paused_; }
   Picture draw(const Moment& moment) const override;
 
  private:

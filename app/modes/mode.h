@@ -49,6 +49,9 @@ class Mode {
   /// True if the moment's picture should be recorded into the light field.
   virtual bool wants_to_record(const Moment&) const { return false; }
 
+  /// True while new views are recorded as they come.
+  virtual bool is_recording() const { return false; }
+
   virtual Picture draw(const Moment& moment) const = 0;
 };
 

@@ -26,7 +26,8 @@ Decision Modes::decide(const std::vector<Gesture>& gestures, const Moment& momen
   }
   go_to(mode(current_).update(moment), moment);
   const bool capturing = current_ == ModeId::Capture || current_ == ModeId::Review;
-  return {mode(current_).wants_to_record(moment), capturing, start_over_};
+  return {mode(current_).wants_to_record(moment), capturing, mode(current_).is_recording(),
+          start_over_};
 }
 
 /// In Review holding the button has another meaning.

@@ -12,6 +12,7 @@ namespace lumibox::app {
 struct Decision {
   bool record = false;         ///< the moment's picture belongs into the light field
   bool hold_exposure = false;  ///< a subject is being captured: its pictures should match
+  bool recording = false;      ///< new views are recorded as they come
   bool start_over = false;     ///< the capture that waited and its world are given up
 };
 

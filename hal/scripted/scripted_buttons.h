@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "hal/buttons.h"
@@ -15,6 +17,7 @@ class ScriptedButtons : public Buttons {
   ScriptedButtons(std::vector<ButtonEvent> events, const Clock& clock);
 
   std::vector<ButtonEvent> poll() override;
+  std::optional<std::string> error() const override { return std::nullopt; }
 
  private:
   std::vector<ButtonEvent> events_;  ///< by time

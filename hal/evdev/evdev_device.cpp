@@ -1,0 +1,144 @@
+#include "hal/evdev/evdev_device.h"
+
+#include <fcntl.h>
+#include <libevdev/libevdev.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+namespace lumibox::hal {
+namespace {
+
+/// In one call, so that a device that never ends does not stop the box.
+constexpr int kMostEvents = 4096;
+
+constexpr int kRepeated = 2;  // value of a key that is held: the kernel repeats it
+
+std::int64_t time_of(const input_event& event) {
+  return event.input_event_sec * std::int64_t{1'000'000'000} +
+         event.input_event_usec * std::int64_t{1000};
+}
+
+std::string refusal(const std::filesystem::path& path, int error) {
+  if (error == EACCES || error == EPERM) {
+    return path.string() + ": no permission; expected a user in the group input";
+  }
+  if (error == EBUSY) {
+    return path.string() + ": another program has it for itself; expected a free device";
+  }
+  return path.string() + ": " + std::strerror(error) + "; expected an input device";
+}
+
+}  // namespace
+
+void EvdevDevice::Free::operator()(libevdev* device) const {
+  libevdev_free(device);
+}
+
+EvdevDevice::Opened EvdevDevice::open(const std::filesystem::path& path, const EvdevTerms& terms,
+                                      std::int64_t now_ns) {
+  const int fd = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (fd < 0) {
+    return {nullptr, refusal(path, errno)};
+  }
+  std::unique_ptr<EvdevDevice> opened(new EvdevDevice(fd, terms));
+  libevdev* const device = opened->device_.get();
+  if (const int error = -libevdev_set_fd(device, fd); error != 0) {
+    return {nullptr, refusal(path, error)};
+  }
+  const bool has_a_key = std::ranges::any_of(terms.keys, [&](const auto& key) {
+    return libevdev_has_event_code(device, EV_KEY, key.first) == 1;
+  });
+  if (!has_a_key || (!terms.name.empty() && terms.name != opened->name())) {
+    return {};
+  }
+  if (const int error = -libevdev_set_clock_id(device, CLOCK_MONOTONIC); error != 0) {
+    return {nullptr, refusal(path, error)};
+  }
+  if (const int error = terms.grab ? -libevdev_grab(device, LIBEVDEV_GRAB) : 0; error != 0) {
+    return {nullptr, refusal(path, error)};
+  }
+  opened->begin(now_ns);
+  return {std::move(opened), {}};
+}
+
+EvdevDevice::EvdevDevice(int fd, const EvdevTerms& terms)
+    : fd_(fd), device_(libevdev_new()), keys_(terms.keys), guard_(terms.stuck_s) {}
+
+EvdevDevice::~EvdevDevice() {
+  close(fd_);
+}
+
+std::string EvdevDevice::name() const {
+  return libevdev_get_name(device_.get());
+}
+
+void EvdevDevice::begin(std::int64_t now_ns) {
+  for (const auto& [code, button] : keys_) {
+    if (libevdev_get_event_value(device_.get(), EV_KEY, code) != 0) {
+      held_.insert(code);
+      guard_.held_at_start(button, now_ns);
+    }
+  }
+}
+
+std::vector<ButtonEvent> EvdevDevice::poll(std::int64_t now_ns) {
+  std::vector<ButtonEvent> edges;
+  if (!gone_ && !read(now_ns, edges)) {
+    gone_ = true;
+    for (const unsigned code : std::set(held_)) take(code, 0, now_ns, edges);
+  }
+  return guard_.pass(edges, now_ns);
+}
+
+/// False when the device is gone. After the kernel has dropped events, libevdev compares its state
+/// with the kernel's and makes events of the differences; nobody knows when these were.
+bool EvdevDevice::read(std::int64_t now_ns, std::vector<ButtonEvent>& edges) {
+  unsigned flag = LIBEVDEV_READ_FLAG_NORMAL;
+  for (int i = 0; i < kMostEvents; ++i) {
+    input_event event{};
+    const int status = libevdev_next_event(device_.get(), flag, &event);
+    const bool resyncing = status == LIBEVDEV_READ_STATUS_SYNC;
+    if (resyncing || status == LIBEVDEV_READ_STATUS_SUCCESS) {
+      if (event.type == EV_KEY) {
+        take(event.code, event.value, resyncing ? now_ns : time_of(event), edges);
+      }
+      if (resyncing) {
+        flag = LIBEVDEV_READ_FLAG_SYNC;
+      }
+    } else if (status == -EAGAIN && flag == LIBEVDEV_READ_FLAG_SYNC) {
+      flag = LIBEVDEV_READ_FLAG_NORMAL;
+    } else if (status != -EINTR) {
+      return status == -EAGAIN;
+    }
+  }
+  return true;
+}
+
+void EvdevDevice::take(unsigned code, int value, std::int64_t time_ns,
+                       std::vector<ButtonEvent>& edges) {
+  const auto key = keys_.find(code);
+  if (key == keys_.end() || value == kRepeated) {
+    return;
+  }
+  const Button button = key->second;
+  const bool was_down = is_down(button);
+  if (value != 0) {
+    held_.insert(code);
+  } else {
+    held_.erase(code);
+  }
+  if (was_down != is_down(button)) {
+    edges.push_back({button, was_down ? ButtonAction::Released : ButtonAction::Pressed, time_ns});
+  }
+}
+
+/// Two keys of one button are one.
+bool EvdevDevice::is_down(Button button) const {
+  return std::ranges::any_of(held_, [&](unsigned code) { return keys_.at(code) == button; });
+}
+
+}  // namespace lumibox::hal
