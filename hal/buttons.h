@@ -20,7 +20,7 @@ constexpr std::size_t index_of(Button button) {
 }
 
 /// As scripts and the configuration name them.
-constexpr const char* name_of(Button button) {
+inline std::string name_of(Button button) {
   constexpr std::array<const char*, 5> kNames = {"main", "review", "plus", "minus", "wipe"};
   return kNames.at(index_of(button));
 }

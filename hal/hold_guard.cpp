@@ -48,7 +48,7 @@ std::vector<ButtonEvent> HoldGuard::newly_stuck(std::int64_t now_ns) {
     }
     hold->heard = false;
     hold->stuck = true;
-    config::log_warning(std::string("the button ") + name_of(button) +
+    config::log_warning("the button " + name_of(button) +
                         " is stuck; it is not heard until it is released");
   }
   return releases;
@@ -59,7 +59,7 @@ std::optional<std::string> HoldGuard::error() const {
   for (const Button button : kAllButtons) {
     const std::optional<Hold>& hold = holds_.at(index_of(button));
     if (hold && hold->stuck) {
-      stuck += (stuck.empty() ? "" : ", ") + std::string(name_of(button));
+      stuck += (stuck.empty() ? "" : ", ") + name_of(button);
     }
   }
   return stuck.empty() ? std::nullopt : std::optional("stuck: " + stuck);

@@ -11,7 +11,6 @@
 #include "hal/evdev/key_map.h"
 #include "hal/hold_guard.h"
 
-struct input_event;
 struct libevdev;
 
 namespace lumibox::hal {

@@ -15,7 +15,7 @@ KeyMap key_map(const config::Evdev& options) {
                                            options.minus, options.wipe};
   KeyMap map;
   for (const Button button : kAllButtons) {
-    const std::string option = std::string("evdev.") + name_of(button);
+    const std::string option = "evdev." + name_of(button);
     std::istringstream words(keys.at(index_of(button)));
     for (std::string word; words >> word;) {
       const int code = libevdev_event_code_from_name(EV_KEY, word.c_str());

@@ -44,7 +44,7 @@ GpiodButtons::GpiodButtons(const config::Gpio& options, double stuck_s, const Cl
 }
 
 void GpiodButtons::add(Button button, const config::Gpio& options, const std::string& line) {
-  const std::string option = std::string("gpio.") + name_of(button);
+  const std::string option = "gpio." + name_of(button);
   GpioInput input({option, line, options.active_low, bias_named(options.bias)});
   const std::optional<LineReading> start = input.read();
   if (!start) {
@@ -84,7 +84,7 @@ void GpiodButtons::read(Switch& contact, std::vector<ButtonEvent>& edges) {
 /// Its chip was unplugged: nobody holds the button any more.
 void GpiodButtons::lose(Switch& contact, const char* why, std::vector<ButtonEvent>& edges) {
   contact.line.reset();
-  const std::string what = std::string("the line of ") + name_of(contact.button) + " is gone";
+  const std::string what = "the line of " + name_of(contact.button) + " is gone";
   config::log_error(what + ": " + why);
   gone_ = joined({gone_, what});
   if (contact.debouncer.active()) {

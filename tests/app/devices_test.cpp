@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "support/input_error.h"
 #include "support/recording.h"
+#include "support/temp_dir.h"
 
 namespace lumibox::app {
 namespace {
@@ -38,6 +41,63 @@ TEST(Devices, KindsWithoutANameAreRefused) {
   config.devices.camera = "replay:" + recording.folder().string();
   config.devices.buttons = "script:";
   EXPECT_THAT(complaint(config), HasSubstr("devices.buttons: \"script\" without a name"));
+}
+
+TEST(Devices, SeveralKindsOfButtonsAreOne) {
+  const testing::Recording recording;
+  const testing::TempDir folder;
+  const std::string one = folder.write("one.txt", "0 main\n").string();
+  const std::string other = folder.write("other.txt", "0 wipe\n").string();
+  config::Config config;
+  config.devices.camera = "replay:" + recording.folder().string();
+  config.devices.clock = "virtual";
+  config.devices.buttons = "script:" + one + " , script:" + other + ",none";
+  const Devices devices = open_devices(config);
+  devices.clock->wait_until(devices.clock->now_ns() + 100'000'000);
+  std::set<hal::Button> pressed;
+  for (const hal::ButtonEvent& event : devices.buttons->poll()) pressed.insert(event.button);
+  EXPECT_EQ(pressed, (std::set{hal::Button::Main, hal::Button::Wipe}));
+}
+
+TEST(Devices, ButtonsAndALampThatAreNotThereAreNamed) {
+  const testing::Recording recording;
+  config::Config config;
+  config.devices.camera = "replay:" + recording.folder().string();
+  config.devices.buttons = "gpio";
+  EXPECT_THAT(complaint(config), HasSubstr("no button has a line"));
+  config.gpio.main = "no such line";
+  EXPECT_THAT(complaint(config), AllOf(HasSubstr("gpio.main"), HasSubstr("\"no such line\"")));
+  config.devices.buttons = "none, evdev";
+  EXPECT_THAT(complaint(config), HasSubstr("\"evdev\" without a name; expected evdev:any"));
+  config.devices.buttons = "evdev:" + recording.dir().write("a file", "").string();
+  EXPECT_THAT(complaint(config), HasSubstr("expected an input device"));
+  for (const char* buttons : {"", "gpio:4", "none,", "mouse"}) {
+    config.devices.buttons = buttons;
+    EXPECT_THAT(complaint(config), AllOf(HasSubstr("devices.buttons"),
+                                         HasSubstr("not in this build"), HasSubstr("evdev:any")))
+        << buttons;
+  }
+  config.devices.buttons = "none";
+  config.devices.status_led = "gpio:no such line";
+  EXPECT_THAT(complaint(config),
+              AllOf(HasSubstr("devices.status_led"), HasSubstr("\"no such line\"")));
+  config.devices.status_led = "gpio:";
+  EXPECT_THAT(complaint(config), HasSubstr("devices.status_led: \"gpio\" without a name"));
+  config.devices.status_led = "torch";
+  EXPECT_THAT(complaint(config), HasSubstr("devices.status_led: \"torch\" is not in this build"));
+}
+
+TEST(Devices, HandsDoNotPressOnTheVirtualClock) {
+  const testing::Recording recording;
+  config::Config config;
+  config.devices.camera = "replay:" + recording.folder().string();
+  config.devices.clock = "virtual";
+  for (const char* buttons : {"gpio", "evdev:any", "none, evdev:A remote"}) {
+    config.devices.buttons = buttons;
+    EXPECT_THAT(complaint(config), AllOf(HasSubstr("devices.buttons"), HasSubstr("devices.clock"),
+                                         HasSubstr("expected \"system\"")))
+        << buttons;
+  }
 }
 
 TEST(Devices, ACalibrationOverridesTheRecordings) {

@@ -219,6 +219,16 @@ TEST(Capture, RecordsOnTheWayByItselfAndOnlyWhenTheGateAccepts) {
   EXPECT_TRUE(box.tick().hold_exposure);
 }
 
+TEST(Capture, SaysThatItIsRecordingUnlessPausedAndNoOtherModeDoes) {
+  Box box;
+  EXPECT_FALSE(box.tick().recording);
+  box.go_to_capture();
+  EXPECT_TRUE(box.tick().recording);
+  EXPECT_FALSE(box.tick({kMain}).recording);
+  EXPECT_TRUE(box.tick({kMain}).recording);
+  EXPECT_FALSE(box.tick({kReview}).recording);
+}
+
 TEST(Capture, SmallerThresholdRecordsMore) {
   Box box;
   box.go_to_capture();

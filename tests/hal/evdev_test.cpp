@@ -173,6 +173,7 @@ TEST_F(Evdev, WhatTheKernelDroppedIsFoundOut) {
   keyboard->change_silently(KEY_ENTER, false);
   keyboard->change_silently(KEY_DELETE, true);
   keyboard->drop();
+  wait_ms(30);  // nobody knows when it happened: not before it is known
   const std::vector<ButtonEvent> told = buttons->poll();
   EXPECT_THAT(told, ::testing::UnorderedElementsAre(released(Button::Main), pressed(Button::Wipe)));
 

@@ -100,6 +100,7 @@ class BoxRun {
   }
 
   Loop& loop() { return *loop_; }
+  Devices& devices() { return devices_; }
   hal::OffscreenDisplay& display() { return *screen_; }
   hal::Image screen() const { return screen_->read_back(); }
   std::size_t views() const { return loop_->recorder().light_field().perspectives().size(); }
@@ -161,6 +162,48 @@ TEST(Box, AWalkAroundASubjectBecomesALightFieldOnTheScreen) {
   const auto capture = lightfield::load_capture(dir / "capture-0001");
   EXPECT_EQ(capture.light_field.perspectives().size(), run.views());
   EXPECT_FALSE(capture.points.empty());
+}
+
+/// A lamp that counts how often it goes dark.
+class CountingLamp : public hal::StatusLed {
+ public:
+  explicit CountingLamp(std::size_t& blinks) : blinks_(blinks) {}
+  void light(bool lit) override {
+    blinks_ += is_lit_ && !lit ? 1 : 0;
+    is_lit_ = lit;
+  }
+
+ private:
+  std::size_t& blinks_;
+  bool is_lit_ = false;
+};
+
+TEST(Box, TheLampBlinksForEachPicture) {
+  const TempDir dir;
+  BoxRun run(kCapture, dir.path());
+  std::size_t blinks = 0;
+  run.devices().status_led = std::make_unique<CountingLamp>(blinks);
+  run.until(1.9);
+  EXPECT_EQ(blinks, 0U);
+  run.until(4.5);
+  EXPECT_GT(run.views(), 2U);
+  EXPECT_EQ(blinks, run.views() - 1);  // when the first is taken it has not been lit yet
+}
+
+class StuckButtons : public hal::Buttons {
+ public:
+  std::vector<hal::ButtonEvent> poll() override { return {}; }
+  std::optional<std::string> error() const override { return "stuck: wipe"; }
+};
+
+TEST(Box, WhatIsWrongWithAButtonIsOnTheScreen) {
+  const TempDir dir;
+  BoxRun run({}, dir.path());
+  run.until(0.1);
+  EXPECT_TRUE(run.loop().picture().alerts.empty());
+  run.devices().buttons = std::make_unique<StuckButtons>();
+  run.until(0.2);
+  EXPECT_EQ(run.loop().picture().alerts, std::vector<std::string>{"buttons: stuck: wipe"});
 }
 
 TEST(Box, TheWideApertureFocusesOnWhatIsUnderTheReticle) {
