@@ -19,7 +19,8 @@ class HoldGuard {
 
   void held_at_start(Button button, std::int64_t now_ns);
 
-  /// `edges` less what must not be heard, oldest first; those of each button alternate.
+  /// `edges`, of which those of each button are in order, less what must not be heard. Oldest
+  /// first.
   std::vector<ButtonEvent> pass(const std::vector<ButtonEvent>& edges, std::int64_t now_ns);
 
   /// Which buttons are stuck; none if no one is.

@@ -15,8 +15,6 @@ namespace {
 /// In one call, so that a device that never ends does not stop the box.
 constexpr int kMostEvents = 4096;
 
-constexpr int kRepeated = 2;  // value of a key that is held: the kernel repeats it
-
 std::int64_t time_of(const input_event& event) {
   return event.input_event_sec * std::int64_t{1'000'000'000} +
          event.input_event_usec * std::int64_t{1000};
@@ -109,8 +107,6 @@ bool EvdevDevice::read(std::int64_t now_ns, std::vector<ButtonEvent>& edges) {
       if (resyncing) {
         flag = LIBEVDEV_READ_FLAG_SYNC;
       }
-    } else if (status == -EAGAIN && flag == LIBEVDEV_READ_FLAG_SYNC) {
-      flag = LIBEVDEV_READ_FLAG_NORMAL;
     } else if (status != -EINTR) {
       return status == -EAGAIN;
     }
@@ -118,10 +114,11 @@ bool EvdevDevice::read(std::int64_t now_ns, std::vector<ButtonEvent>& edges) {
   return true;
 }
 
+/// The kernel repeats a key that is held: that changes nothing.
 void EvdevDevice::take(unsigned code, int value, std::int64_t time_ns,
                        std::vector<ButtonEvent>& edges) {
   const auto key = keys_.find(code);
-  if (key == keys_.end() || value == kRepeated) {
+  if (key == keys_.end()) {
     return;
   }
   const Button button = key->second;

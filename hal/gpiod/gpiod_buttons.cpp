@@ -1,6 +1,5 @@
 #include "hal/gpiod/gpiod_buttons.h"
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
@@ -65,7 +64,6 @@ std::vector<ButtonEvent> GpiodButtons::poll() {
       read(contact, edges);
     }
   }
-  std::ranges::stable_sort(edges, {}, &ButtonEvent::timestamp_ns);
   return guard_.pass(edges, clock_.now_ns());
 }
 

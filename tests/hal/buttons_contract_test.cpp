@@ -91,4 +91,10 @@ TEST_P(HardwareButtons, ReleaseAStuckButtonAndSayWhichUntilItReallyIs) {
   EXPECT_EQ(buttons_->error(), std::nullopt);
 }
 
+TEST_P(HardwareButtons, SayThatAButtonIsStuckFromTheStart) {
+  constexpr auto kStuckMs = static_cast<std::int64_t>(1000 * kRigStuckS);
+  EXPECT_THAT(play({pressed(Button::Review, -50)}, (kStuckMs + 100) * kMs), IsEmpty());
+  EXPECT_THAT(buttons_->error(), Optional(HasSubstr("review")));
+}
+
 }  // namespace lumibox::testing

@@ -31,6 +31,7 @@ struct FakeLine {
 
   std::deque<FakeEdge> edges = {};  ///< kept for the reader
   bool gone = false;                ///< its chip was unplugged
+  bool hangs_up = false;            ///< and the kernel says so at once, as newer ones do
 
   bool is_active() const { return high != active_low; }
 };

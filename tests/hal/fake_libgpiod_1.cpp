@@ -118,11 +118,14 @@ int gpiod_line_request(gpiod_line* line, const gpiod_line_request_config* config
 int gpiod_line_event_wait(gpiod_line* line, const timespec* timeout) {
   EXPECT_TRUE(timeout != nullptr && timeout->tv_sec == 0 && timeout->tv_nsec == 0)
       << "it would block";
-  return line->line->gone ? fails(ENODEV, -1) : static_cast<int>(!line->line->edges.empty());
+  return static_cast<int>(line->line->hangs_up || !line->line->edges.empty());
 }
 
 int gpiod_line_event_read_multiple(gpiod_line* line, gpiod_line_event* events,
                                    unsigned int num_events) {
+  if (line->line->gone) {
+    return fails(ENODEV, -1);
+  }
   std::deque<FakeEdge>& edges = line->line->edges;
   EXPECT_FALSE(edges.empty()) << "it would block";
   unsigned int count = 0;

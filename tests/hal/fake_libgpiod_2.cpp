@@ -279,11 +279,14 @@ int gpiod_line_request_set_value(gpiod_line_request* request, unsigned int offse
 
 int gpiod_line_request_wait_edge_events(gpiod_line_request* request, int64_t timeout_ns) {
   EXPECT_EQ(timeout_ns, 0) << "it would block";
-  return request->line->gone ? fails(ENODEV, -1) : static_cast<int>(!request->line->edges.empty());
+  return static_cast<int>(request->line->hangs_up || !request->line->edges.empty());
 }
 
 int gpiod_line_request_read_edge_events(gpiod_line_request* request,
                                         gpiod_edge_event_buffer* buffer, size_t max_events) {
+  if (request->line->gone) {
+    return fails(ENODEV, -1);
+  }
   std::deque<FakeEdge>& edges = request->line->edges;
   EXPECT_FALSE(edges.empty()) << "it would block";
   EXPECT_LE(max_events, buffer->capacity);

@@ -102,6 +102,26 @@ class Gpiod : public ::testing::TestWithParam<int> {
   }
   static std::int64_t bounce_time_ns(std::int64_t change) { return 100 * kMs + change * 30'000; }
 
+  /// WIPE is pressed, then its chip is unplugged.
+  void lose_a_line(bool hangs_up) {
+    options_.main = "MAIN";
+    options_.wipe = "WIPE";
+    hal::GpiodButtons buttons(options_, kStuckS, clock_);
+    fake_board().drive(line("WIPE"), false, 1 * kMs);
+    EXPECT_THAT(poll_at(buttons, 20),
+                ElementsAre(ButtonEvent{Button::Wipe, ButtonAction::Pressed, kMs}));
+    EXPECT_EQ(buttons.error(), std::nullopt);
+
+    line("WIPE").gone = true;
+    line("WIPE").hangs_up = hangs_up;
+    EXPECT_THAT(poll_at(buttons, 40),
+                ElementsAre(ButtonEvent{Button::Wipe, ButtonAction::Released, 40 * kMs}));
+    fake_board().drive(line("MAIN"), false, 50 * kMs);
+    EXPECT_THAT(poll_at(buttons, 60),
+                ElementsAre(ButtonEvent{Button::Main, ButtonAction::Pressed, 50 * kMs}));
+    EXPECT_EQ(buttons.error(), "the line of wipe is gone");
+  }
+
   FakeLine& line(const std::string& name) { return *fake_board().line_named(name); }
 
   hal::VirtualClock clock_;
@@ -126,6 +146,7 @@ TEST_P(Gpiod, TakesLinesByNameAndByChipAndOffset) {
       EXPECT_TRUE(line(name).tells_edges) << name;
       EXPECT_TRUE(line(name).active_low) << name;
       EXPECT_EQ(line(name).bias, "pull-up") << name;
+      EXPECT_EQ(line(name).kept_edges, kFakeLibgpiod == 1 ? 16U : 64U) << name;
     }
   }
   EXPECT_EQ(line("MAIN").user, "");
@@ -180,9 +201,10 @@ TEST_P(Gpiod, ABurstThatTheKernelCannotKeepIsOnePress) {
   hal::GpiodButtons buttons(options_, kStuckS, clock_);
   const auto kept = static_cast<std::int64_t>(line("MAIN").kept_edges);
   bounce(2 * kept + 1);
-  EXPECT_THAT(poll_at(buttons, 105), IsEmpty());
+  std::vector<ButtonEvent> told = poll_at(buttons, 120);
+  for (const ButtonEvent& event : poll_at(buttons, 140)) told.push_back(event);
   const std::int64_t first = kFakeLibgpiod == 1 ? 0 : kept + 1;
-  EXPECT_THAT(poll_at(buttons, 133),
+  EXPECT_THAT(told,
               ElementsAre(ButtonEvent{Button::Main, ButtonAction::Pressed, bounce_time_ns(first)}));
   EXPECT_THAT(poll_at(buttons, 300), IsEmpty());
 }
@@ -196,21 +218,11 @@ TEST_P(Gpiod, ABurstThatEndsWhereItBeganIsNone) {
 }
 
 TEST_P(Gpiod, AButtonIsReleasedWhenItsLineGoesAndTheOthersGoOn) {
-  options_.main = "MAIN";
-  options_.wipe = "WIPE";
-  hal::GpiodButtons buttons(options_, kStuckS, clock_);
-  fake_board().drive(line("WIPE"), false, 1 * kMs);
-  EXPECT_THAT(poll_at(buttons, 20),
-              ElementsAre(ButtonEvent{Button::Wipe, ButtonAction::Pressed, kMs}));
-  EXPECT_EQ(buttons.error(), std::nullopt);
+  lose_a_line(/*hangs_up=*/false);
+}
 
-  line("WIPE").gone = true;
-  EXPECT_THAT(poll_at(buttons, 40),
-              ElementsAre(ButtonEvent{Button::Wipe, ButtonAction::Released, 40 * kMs}));
-  EXPECT_EQ(buttons.error(), "the line of wipe is gone");
-  fake_board().drive(line("MAIN"), false, 50 * kMs);
-  EXPECT_THAT(poll_at(buttons, 60),
-              ElementsAre(ButtonEvent{Button::Main, ButtonAction::Pressed, 50 * kMs}));
+TEST_P(Gpiod, AButtonIsReleasedWhenItsLineHangsUp) {
+  lose_a_line(/*hangs_up=*/true);
 }
 
 TEST_P(Gpiod, TheQuietTimeIsThatOfTheConfiguration) {

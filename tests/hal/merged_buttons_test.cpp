@@ -61,6 +61,14 @@ TEST(ButtonUnion, AButtonIsDownWhileAnySetHoldsIt) {
   EXPECT_THAT(all.merge({released(Button::Plus, 4)}), ElementsAre(released(Button::Plus, 4)));
 }
 
+TEST(ButtonUnion, WhoWasFirstIsToldByTimeNotByOrder) {
+  ButtonUnion all;
+  all.merge({pressed(Button::Plus, 1)});
+  EXPECT_THAT(
+      all.merge({released(Button::Plus, 4), pressed(Button::Plus, 3), released(Button::Plus, 6)}),
+      ElementsAre(released(Button::Plus, 6)));
+}
+
 // A switch that is debounced is told of later than a key that was pressed after it.
 TEST(ButtonUnion, WhatIsToldOfOneButtonGoesForwardInTime) {
   ButtonUnion all;
