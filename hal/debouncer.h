@@ -19,7 +19,7 @@ struct LineReading {
   /// Oldest first. They need not alternate: when a switch bounces, the kernel may miss half of it.
   std::vector<LineEdge> edges;
   bool active = false;  ///< the level now, read after the edges
-  bool lost = false;    ///< there were more edges than the kernel keeps
+  bool lost = false;    ///< after those there were more, which the kernel did not keep
 };
 
 /// Makes one edge of each burst in which a switch bounces. A burst is over when the line has been

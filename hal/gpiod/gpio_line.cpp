@@ -57,7 +57,7 @@ config::InputError not_given(const LineRequest& request, int error, const char* 
                                 "; expected a free line");
   }
   return refusal(request, "refused by the kernel (" + std::string(std::strerror(error)) +
-                              "); expected a line with edges and the bias asked for");
+                              "); expected a line that tells edges, with the bias asked for");
 }
 
 }  // namespace lumibox::hal

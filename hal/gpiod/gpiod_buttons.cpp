@@ -44,11 +44,11 @@ GpiodButtons::GpiodButtons(const config::Gpio& options, double stuck_s, const Cl
 
 void GpiodButtons::add(Button button, const config::Gpio& options, const std::string& line) {
   const std::string option = "gpio." + name_of(button);
-  GpioInput input({option, line, options.active_low, bias_named(options.bias)});
+  const LineRequest request{option, line, options.active_low, bias_named(options.bias)};
+  GpioInput input(request);
   const std::optional<LineReading> start = input.read();
   if (!start) {
-    throw config::InputError(option + ": line \"" + line +
-                             "\" cannot be read: " + std::strerror(errno));
+    throw not_given(request, errno, /*user=*/nullptr);
   }
   if (start->active) {
     guard_.held_at_start(button, clock_.now_ns());

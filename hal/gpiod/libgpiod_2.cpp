@@ -14,7 +14,8 @@ namespace {
 
 constexpr const char* kConsumer = "lumibox";
 
-/// That the kernel is asked to keep of a line, instead of 16; of more, it drops the oldest.
+/// That the kernel is asked to keep of a line, instead of 16; of more, it drops the oldest, so that
+/// the level is never at odds with the last.
 constexpr std::size_t kKeptEdges = 64;
 
 /// The kernel numbers no more chips than these.
@@ -178,7 +179,6 @@ std::optional<LineReading> GpioInput::read() {
   for (unsigned long i = 0; i < static_cast<unsigned long>(count); ++i) {
     reading.edges.push_back(edge_of(gpiod_edge_event_buffer_get_event(line_->events.get(), i)));
   }
-  reading.lost = reading.edges.size() == kKeptEdges;
   const gpiod_line_value level = gpiod_line_request_get_value(request, line_->line.offset);
   reading.active = level == GPIOD_LINE_VALUE_ACTIVE;
   return level == GPIOD_LINE_VALUE_ERROR ? std::nullopt : std::optional(std::move(reading));

@@ -133,10 +133,10 @@ std::vector<LineEdge> told(const std::vector<LineEdge>& edges, std::size_t kept,
       const auto excess = static_cast<std::ptrdiff_t>(reading.edges.size() - kept);
       if (oldest) {
         reading.edges.resize(kept);
+        reading.lost = true;
       } else {
         reading.edges.erase(reading.edges.begin(), reading.edges.begin() + excess);
       }
-      reading.lost = true;
     }
     reading.active = level;
     for (const LineEdge& edge : debouncer.update(reading, now_ns)) all.push_back(edge);

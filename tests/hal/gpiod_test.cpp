@@ -188,6 +188,9 @@ TEST_P(Gpiod, SaysWhichLineCannotBeHadAndWhy) {
   options_.plus = "gpiochip0:1";
   EXPECT_THAT(complaint(), AllOf(HasSubstr("gpio.plus"), HasSubstr("in use by \"lumibox\"")));
   options_.plus = "";
+  line("MAIN").gone = true;
+  EXPECT_THAT(complaint(), AllOf(HasSubstr("\"MAIN\""), HasSubstr("refused by the kernel")));
+  line("MAIN").gone = false;
   for (FakeChip& chip : fake_board().chips) chip.is_denied = true;
   EXPECT_THAT(complaint(), AllOf(HasSubstr("gpio.main"), HasSubstr("no permission")));
   options_.main = "gpiochip0:1";
