@@ -22,6 +22,7 @@
 #include "hal/sim/sim_camera.h"
 #include "hal/sim/virtual_clock.h"
 #include "hal/system_clock.h"
+#include "hal/v4l2/v4l2_camera.h"
 
 namespace lumibox::app {
 namespace {
@@ -64,14 +65,32 @@ std::unique_ptr<hal::Clock> open_clock(const std::string& text) {
   refuse("clock", text, "system and virtual");
 }
 
-std::unique_ptr<hal::Camera> open_camera(const std::string& text, const std::string& calibration,
+/// Frames of a real camera come in real time.
+std::unique_ptr<hal::Camera> open_webcam(const std::string& device, const config::Config& config,
                                          const hal::Clock& clock) {
+  if (config.devices.clock != "system") {
+    throw config::InputError("devices.clock: \"" + config.devices.clock +
+                             "\" with a real camera; expected \"system\"");
+  }
+  hal::V4l2Options options{device, std::nullopt, config.camera};
+  if (!config.devices.calibration.empty()) {
+    options.calibration = hal::read_calibration(config.devices.calibration);
+  }
+  return std::make_unique<hal::V4l2Camera>(options, clock);
+}
+
+std::unique_ptr<hal::Camera> open_camera(const config::Config& config, const hal::Clock& clock) {
+  const std::string& text = config.devices.camera;
+  const std::string& calibration = config.devices.calibration;
   if (text.empty()) {
     throw config::InputError(
-        "devices.camera is not set; expected sim:SCENE.toml or replay:SEQUENCE, in a --config file "
-        "or with --set devices.camera=...");
+        "devices.camera is not set; expected v4l2:DEVICE, sim:SCENE.toml or replay:SEQUENCE, in a "
+        "--config file or with --set devices.camera=...");
   }
   const Name name = split(text);
+  if (name.kind == "v4l2") {
+    return open_webcam(what_of(name, "camera", "v4l2:auto or v4l2:/dev/video0"), config, clock);
+  }
   if (name.kind == "sim") {
     if (!calibration.empty()) {
       throw config::InputError("devices.calibration: \"" + calibration +
@@ -87,7 +106,7 @@ std::unique_ptr<hal::Camera> open_camera(const std::string& text, const std::str
             calibration.empty() ? std::nullopt : std::optional<std::filesystem::path>(calibration)),
         clock, hal::Pacing::Recorded);
   }
-  refuse("camera", text, "sim:SCENE.toml and replay:SEQUENCE");
+  refuse("camera", text, "v4l2:DEVICE, sim:SCENE.toml and replay:SEQUENCE");
 }
 
 /// Buttons that a hand presses go by the system's time.
@@ -185,7 +204,7 @@ Devices open_devices(const config::Config& config) {
   Devices devices;
   devices.clock = open_clock(options.clock);
   devices.lockstep = options.clock == "virtual";
-  devices.camera = open_camera(options.camera, options.calibration, *devices.clock);
+  devices.camera = open_camera(config, *devices.clock);
   devices.buttons = open_buttons(config, *devices.clock);
   devices.status_led = open_status_led(config);
   devices.display = open_display(options.display);

@@ -110,12 +110,22 @@ struct Evdev {
 /// What the box is made of; app/devices.cpp knows the kinds.
 struct Devices {
   std::string clock = "system";  ///< system, or virtual: as fast as the work allows
-  std::string camera;            ///< sim:SCENE.toml or replay:SEQUENCE
+  std::string camera;            ///< v4l2:DEVICE, sim:SCENE.toml, replay:SEQUENCE
   std::string calibration;       ///< of the camera, in place of a recording's own
   /// none, or one or several of script:FILE, gpio, evdev:any, evdev:PATH, evdev:NAME; with commas
   std::string buttons = "none";
   std::string status_led = "none";            ///< none, or gpio:LINE
   std::string display = "offscreen:640x480";  ///< offscreen:WIDTHxHEIGHT
+};
+
+/// What is asked of a camera that is opened through v4l2.
+struct Camera {
+  std::string format = "auto";      ///< auto, yuyv, nv12, mjpeg, grey
+  int width = 0;                    ///< pixels; 0: the calibration's, or 640 without one
+  int height = 0;                   ///< pixels; 0: the calibration's, or 480 without one
+  double rate_hz = 30.0;            ///< frames per second
+  std::string power_line = "asis";  ///< asis, off, 50hz, 60hz, auto
+  int stall_periods = 60;           ///< of a frame, without one, until its stream is begun anew
 };
 
 struct Log {
@@ -134,6 +144,7 @@ struct Config {
   Gpio gpio;
   Evdev evdev;
   Devices devices;
+  Camera camera;
   Log log;
 };
 

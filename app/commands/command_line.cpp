@@ -64,6 +64,12 @@ void add_run(CLI::App& app) {
       std::make_shared<RunOptions>(), run);
 }
 
+void add_cameras(CLI::App& app) {
+  add_command(app, "cameras",
+              "The cameras of this machine: formats, sizes and rates, and what can be adjusted.",
+              "lumibox cameras", std::make_shared<CamerasOptions>(), show_cameras);
+}
+
 void add_demo(CLI::App& app) {
   const auto options = std::make_shared<DemoOptions>();
   CLI::App* command = add_command(
@@ -457,6 +463,7 @@ int run_command_line(int argc, char** argv) {
   app.set_version_flag("--version", LUMIBOX_VERSION);
   app.footer("`lumibox COMMAND --help` explains each command with an example.");
   add_run(app);
+  add_cameras(app);
   add_demo(app);
   add_track(app);
   add_render(app);

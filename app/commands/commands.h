@@ -20,6 +20,11 @@ struct RunOptions {
 };
 void run(const RunOptions& options);
 
+struct CamerasOptions {
+  config::Sources sources;
+};
+void show_cameras(const CamerasOptions& options);
+
 struct DemoOptions {
   config::Sources sources;
   std::filesystem::path out = "lumibox-demo";

@@ -74,8 +74,8 @@ std::string small_capture(const Recording& recording) {
 
 TEST(CommandLine, EveryCommandExplainsItselfWithAnExample) {
   EXPECT_THAT(lumibox("--help").out, HasSubstr("COMMAND --help"));
-  for (const std::string command : {"run", "demo", "track", "render", "evaluate", "import",
-                                    "export", "calibrate", "sim", "bench"}) {
+  for (const std::string command : {"run", "cameras", "demo", "track", "render", "evaluate",
+                                    "import", "export", "calibrate", "sim", "bench"}) {
     const Outcome outcome = lumibox(command + " --help");
     EXPECT_EQ(outcome.status, 0);
     EXPECT_THAT(outcome.out, AllOf(HasSubstr("Example:"), HasSubstr("lumibox " + command)));

@@ -21,8 +21,8 @@ std::string complaint(const config::Config& config) {
 
 TEST(Devices, KindsThatThisBuildDoesNotHaveAreNamedWithThoseItHas) {
   config::Config config;
-  config.devices.camera = "v4l2:/dev/video0";
-  EXPECT_THAT(complaint(config), AllOf(HasSubstr("devices.camera"), HasSubstr("v4l2:/dev/video0"),
+  config.devices.camera = "pinhole:/dev/box";
+  EXPECT_THAT(complaint(config), AllOf(HasSubstr("devices.camera"), HasSubstr("pinhole:/dev/box"),
                                        HasSubstr("not in this build"), HasSubstr("replay:")));
   config.devices.camera = "";
   EXPECT_THAT(complaint(config),
@@ -33,7 +33,7 @@ TEST(Devices, KindsThatThisBuildDoesNotHaveAreNamedWithThoseItHas) {
 
 TEST(Devices, KindsWithoutANameAreRefused) {
   config::Config config;
-  for (const char* camera : {"sim", "sim:", "replay", "replay:"}) {
+  for (const char* camera : {"sim", "sim:", "replay", "replay:", "v4l2", "v4l2:"}) {
     config.devices.camera = camera;
     EXPECT_THAT(complaint(config), HasSubstr("without a name; expected")) << camera;
   }
@@ -111,6 +111,17 @@ TEST(Devices, ACalibrationOverridesTheRecordings) {
   EXPECT_EQ(open_devices(config).camera->profile().fx, 44.0);
   config.devices.camera = "sim:toy.toml";
   EXPECT_THAT(complaint(config), HasSubstr("devices.calibration"));
+}
+
+TEST(Devices, ARealCameraNeedsRealTimeAndACalibrationThatCanBeRead) {
+  config::Config config;
+  config.devices.camera = "v4l2:/nowhere/video";
+  EXPECT_THAT(complaint(config),
+              AllOf(HasSubstr("devices.camera: /nowhere/video"), HasSubstr("No such file")));
+  config.devices.calibration = "/nowhere/own.toml";
+  EXPECT_THAT(complaint(config), HasSubstr("/nowhere/own.toml"));
+  config.devices.clock = "virtual";
+  EXPECT_THAT(complaint(config), AllOf(HasSubstr("devices.clock"), HasSubstr("real camera")));
 }
 
 TEST(Devices, MissingFilesAreNamed) {

@@ -1,0 +1,182 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "hal/fake_video.h"
+#include "hal/sim/virtual_clock.h"
+#include "hal/v4l2/camera_list.h"
+#include "hal/v4l2/modes.h"
+
+namespace lumibox::hal::v4l2 {
+namespace {
+
+using ::testing::ElementsAre;
+using testing::FakeCamera;
+using testing::FakeVideo;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::vector<std::string> texts(const std::vector<Mode>& modes) {
+  std::vector<std::string> all;
+  for (const Mode& mode : modes) all.push_back(to_string(mode));
+  return all;
+}
+
+/// A fake camera, opened.
+class V4l2Modes : public ::testing::Test {
+ protected:
+  VideoDevice& device() {
+    if (!device_) device_ = video_.open(camera_->path).device;
+    return *device_;
+  }
+
+  VirtualClock clock_;
+  std::shared_ptr<FakeCamera> camera_ = std::make_shared<FakeCamera>();
+  FakeVideo video_{clock_, {camera_}};
+  std::unique_ptr<VideoDevice> device_;
+};
+
+TEST_F(V4l2Modes, AllThatCanBeReadAreListed) {
+  camera_->modes = {{V4L2_PIX_FMT_H264, 640, 480, {30}}, {V4L2_PIX_FMT_MJPEG, 640, 480, {30, 15}},
+                    {V4L2_PIX_FMT_YUYV, 320, 240, {30}}, {V4L2_PIX_FMT_NV12, 320, 240, {25}},
+                    {V4L2_PIX_FMT_GREY, 320, 240, {60}}, {V4L2_PIX_FMT_YUYV, 321, 240, {30}}};
+  EXPECT_THAT(
+      texts(list_modes(device(), {})),
+      ElementsAre("mjpeg 640x480 at 30 Hz", "mjpeg 640x480 at 15 Hz", "yuyv 320x240 at 30 Hz",
+                  "nv12 320x240 at 25 Hz", "grey 320x240 at 60 Hz"));
+}
+
+TEST_F(V4l2Modes, OfRangesTheNearestToTheWishIsListed) {
+  camera_->any_size = v4l2_frmsize_stepwise{2, 1920, 2, 1, 1200, 1};
+  camera_->any_rate = v4l2_frmival_stepwise{{1, 60}, {1, 5}, {1, 1}};
+  const auto of = [this](int width, int height, double rate) {
+    return texts(list_modes(device(), {std::nullopt, width, height, rate})).front();
+  };
+  EXPECT_EQ(of(640, 480, 30), "mjpeg 640x480 at 30 Hz");
+  EXPECT_EQ(of(641, 480, 12.5), "mjpeg 642x480 at 12.5 Hz");
+  EXPECT_EQ(of(4000, 3000, 90), "mjpeg 1920x1200 at 60 Hz");
+  EXPECT_EQ(of(4000, 3000, 1), "mjpeg 1920x1200 at 5 Hz");
+}
+
+TEST_F(V4l2Modes, CamerasThatDoNotSayTheirRatesHaveOneMode) {
+  camera_->modes = {{V4L2_PIX_FMT_YUYV, 640, 480, {}}};
+  const std::vector<Mode> modes = list_modes(device(), {});
+  EXPECT_THAT(texts(modes), ElementsAre("yuyv 640x480 at a rate that it does not say"));
+  EXPECT_TRUE(choose(modes, {}));
+}
+
+Mode mode(PixelFormat format, int width, int height, std::uint32_t rate) {
+  return {format, width, height, {1, rate}};
+}
+
+std::string chosen(const std::vector<Mode>& modes, const Wish& wish) {
+  const auto found = choose(modes, wish);
+  return found ? to_string(*found) : "none";
+}
+
+const std::vector<Mode> kWebcam = {
+    mode(PixelFormat::Mjpeg, 1280, 720, 30), mode(PixelFormat::Mjpeg, 640, 480, 30),
+    mode(PixelFormat::Mjpeg, 640, 480, 60),  mode(PixelFormat::Yuyv, 1280, 720, 10),
+    mode(PixelFormat::Yuyv, 640, 480, 15),   mode(PixelFormat::Yuyv, 640, 480, 30),
+    mode(PixelFormat::Grey, 640, 480, 120),
+};
+
+TEST(V4l2Choice, PrefersWhatIsNotCompressedWhereThatIsAsFast) {
+  EXPECT_EQ(chosen(kWebcam, {std::nullopt, 640, 480, 30}), "yuyv 640x480 at 30 Hz");
+  EXPECT_EQ(chosen(kWebcam, {std::nullopt, 1280, 720, 30}), "mjpeg 1280x720 at 30 Hz");
+  EXPECT_EQ(chosen(kWebcam, {std::nullopt, 640, 480, 60}), "mjpeg 640x480 at 60 Hz");
+}
+
+TEST(V4l2Choice, PrefersTheSizeToTheRateAndTheNearestFasterRate) {
+  EXPECT_EQ(chosen(kWebcam, {PixelFormat::Yuyv, 1280, 720, 30}), "yuyv 1280x720 at 10 Hz");
+  EXPECT_EQ(chosen(kWebcam, {PixelFormat::Yuyv, 640, 480, 20}), "yuyv 640x480 at 30 Hz");
+  EXPECT_EQ(chosen(kWebcam, {PixelFormat::Mjpeg, 640, 480, 10}), "mjpeg 640x480 at 30 Hz");
+  EXPECT_EQ(chosen(kWebcam, {std::nullopt, 1000, 700, 30}), "mjpeg 1280x720 at 30 Hz");
+}
+
+TEST(V4l2Choice, ThirtyIsTwentyNinePointNineSeven) {
+  std::vector<Mode> modes = {mode(PixelFormat::Mjpeg, 640, 480, 30)};
+  modes.push_back({PixelFormat::Yuyv, 640, 480, {1001, 30000}});
+  EXPECT_EQ(chosen(modes, {std::nullopt, 640, 480, 30}), "yuyv 640x480 at 29.97 Hz");
+}
+
+TEST(V4l2Choice, TheFormatIsKeptTo) {
+  EXPECT_EQ(chosen(kWebcam, {PixelFormat::Mjpeg, 640, 480, 30}), "mjpeg 640x480 at 30 Hz");
+  EXPECT_EQ(chosen(kWebcam, {PixelFormat::Grey, 1280, 720, 30}), "grey 640x480 at 120 Hz");
+  EXPECT_EQ(chosen(kWebcam, {PixelFormat::Nv12, 640, 480, 30}), "none");
+  EXPECT_EQ(chosen({}, {}), "none");
+}
+
+RC_GTEST_PROP(V4l2ChoiceProperty, TheOrderOfTheOffersDoesNotMatter, (const std::uint8_t draw)) {
+  const Wish wish{std::nullopt, 320 + 16 * (draw % 64), 480, 5.0 + draw % 60};
+  const std::string straight = chosen(kWebcam, wish);
+  RC_ASSERT(chosen({kWebcam.rbegin(), kWebcam.rend()}, wish) == straight);
+}
+
+TEST_F(V4l2Modes, WhatIsSetIsChecked) {
+  camera_->modes = {{V4L2_PIX_FMT_YUYV, 640, 480, {30}}};
+  const Mode wished = mode(PixelFormat::Yuyv, 640, 480, 30);
+  const auto layout = set_mode(device(), wished);
+  ASSERT_TRUE(std::holds_alternative<Layout>(layout));
+  EXPECT_EQ(std::get<Layout>(layout).stride, 1280U);
+  EXPECT_EQ(std::get<Layout>(layout).size_bytes, 1280U * 480U);
+  EXPECT_FALSE(std::get<Layout>(layout).limited_range);
+
+  camera_->other_size = {320, 240};
+  EXPECT_THAT(std::get<std::string>(set_mode(device(), wished)), HasSubstr("gives 320x240"));
+}
+
+TEST_F(V4l2Modes, ARateThatTheCameraDoesNotKeepIsKnown) {
+  camera_->other_interval = v4l2_fract{1, 15};
+  const auto layout = set_mode(device(), mode(PixelFormat::Mjpeg, 32, 24, 30));
+  EXPECT_EQ(std::get<Layout>(layout).mode.interval.rate_hz(), 15.0);
+}
+
+TEST_F(V4l2Modes, RowsMayBePaddedAndValuesOfLimitedRange) {
+  camera_->modes = {{V4L2_PIX_FMT_NV12, 640, 480, {30}}};
+  camera_->padding = 64;
+  camera_->limited_range = true;
+  const auto layout = std::get<Layout>(set_mode(device(), mode(PixelFormat::Nv12, 640, 480, 30)));
+  EXPECT_EQ(layout.stride, 704U);
+  EXPECT_EQ(layout.size_bytes, 704U * 720U);
+  EXPECT_TRUE(layout.limited_range);
+}
+
+TEST(V4l2Formats, HaveTheNamesOfTheConfiguration) {
+  for (const char* name : {"yuyv", "nv12", "mjpeg", "grey"}) {
+    ASSERT_TRUE(format_named(name)) << name;
+    EXPECT_STREQ(name_of(*format_named(name)), name);
+  }
+  EXPECT_FALSE(format_named("auto"));
+}
+
+TEST(CameraList, SaysWhatEachCameraOffersAndLeavesOutWhatIsNone) {
+  VirtualClock clock;
+  const auto webcam = std::make_shared<FakeCamera>();
+  webcam->stable_path = "/dev/v4l/by-id/usb-fake-index0";
+  webcam->modes = {{V4L2_PIX_FMT_MJPEG, 640, 480, {15, 30}}, {V4L2_PIX_FMT_YUYV, 320, 240, {}}};
+  webcam->controls[V4L2_CID_FOCUS_ABSOLUTE] = {.name = "Focus", .most = 250, .value = 40};
+  const auto metadata = std::make_shared<FakeCamera>();
+  metadata->path = "/dev/video1";
+  metadata->capabilities = V4L2_CAP_META_CAPTURE | V4L2_CAP_STREAMING;
+  const auto locked = std::make_shared<FakeCamera>();
+  locked->path = "/dev/video2";
+  locked->open_error = EACCES;
+  FakeVideo video(clock, {webcam, metadata, locked});
+  EXPECT_EQ(list_cameras(video),
+            "/dev/video0: Fake Webcam (fake, memory:/dev/video0)\n"
+            "  /dev/v4l/by-id/usb-fake-index0\n"
+            "  yuyv 320x240: at a rate that it does not say\n"
+            "  mjpeg 640x480: 30, 15 Hz\n"
+            "  Focus: 40 (0 to 250)\n"
+            "/dev/video2: Permission denied\n");
+  FakeVideo nothing(clock, {metadata});
+  EXPECT_EQ(list_cameras(nothing), "no camera found\n");
+}
+
+}  // namespace
+}  // namespace lumibox::hal::v4l2
