@@ -16,7 +16,9 @@ std::int64_t Numbering::next(std::uint32_t sequence) {
 }
 
 std::int64_t Stamping::stamp(const Filled& filled, std::int64_t now_ns) {
-  replaced_ = !filled.monotonic || filled.timestamp_ns > now_ns;
+  // A buffer may have been filled a moment after `now` was read.
+  constexpr std::int64_t kSlackNs = 100'000'000;
+  replaced_ = !filled.monotonic || filled.timestamp_ns > now_ns + kSlackNs;
   std::int64_t stamp_ns = replaced_ ? now_ns : filled.timestamp_ns;
   stamp_ns += filled.start_of_exposure && !replaced_ ? half_readout_ns_ : -half_readout_ns_;
   if (last_ns_ && stamp_ns <= *last_ns_) {

@@ -36,14 +36,13 @@ std::optional<std::string> Streamer::start(std::int64_t now_ns) {
   numbering_ = Numbering();
   stamping_ = Stamping(settings_.readout_ns);
   said_damage_ = said_stamps_ = false;
-  std::optional<std::string> fault = connection_.device ? begin_stream(now_ns) : "lost before";
-  if (fault) {  // it may have been plugged in anew since it was opened
-    fault = open_and_begin(now_ns);
-  }
-  if (fault) {
-    close_device(now_ns);
-    recovery_.stopped();
-    return fault;
+  // It may have been lost, or plugged in anew, since it was opened.
+  if (!connection_.device || begin_stream(now_ns)) {
+    if (auto fault = open_and_begin(now_ns)) {
+      close_device(now_ns);
+      recovery_.stopped();
+      return fault;
+    }
   }
   state_ = CameraState::Streaming;
   return std::nullopt;
@@ -72,6 +71,7 @@ std::optional<std::string> Streamer::open_and_begin(std::int64_t now_ns) {
   auto found = connect(system_, request_);
   if (const auto* fault = std::get_if<std::string>(&found)) return *fault;
   connection_ = std::get<Connection>(std::move(found));
+  name_ = "camera " + connection_.name();
   const auto fault = begin_stream(now_ns);
   return fault ? std::optional(connection_.name() + ": " + *fault) : std::nullopt;
 }

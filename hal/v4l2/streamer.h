@@ -52,6 +52,13 @@ class Streamer {
   void hold_exposure(bool hold) { hold_wanted_ = hold; }
 
  private:
+  /// The newest picture of those that were drained, still in the camera's buffer.
+  struct Newest {
+    Filled filled;
+    std::int64_t index = 0;
+    std::int64_t timestamp_ns = 0;
+  };
+
   std::optional<std::string> open_and_begin(std::int64_t now_ns);
   std::optional<std::string> begin_stream(std::int64_t now_ns);
   void update_hold();
@@ -65,13 +72,6 @@ class Streamer {
   void close_device(std::int64_t now_ns);
   void say_lost(const std::string& reason, std::int64_t now_ns);
   void say_faults(const std::vector<std::string>& faults);
-
-  /// The newest picture of those that were drained, still in the camera's buffer.
-  struct Newest {
-    Filled filled;
-    std::int64_t index = 0;
-    std::int64_t timestamp_ns = 0;
-  };
 
   VideoSystem& system_;
   FrameSlot& slot_;

@@ -18,6 +18,7 @@
 
 #include "hal/fake_video.h"
 #include "hal/sim/virtual_clock.h"
+#include "hal/system_clock.h"
 #include "support/input_error.h"
 
 namespace lumibox::hal {
@@ -418,6 +419,17 @@ TEST_F(V4l2CameraTest, StartingAnewFindsACameraThatWasPluggedInAgainMeanwhile) {
   EXPECT_EQ(step()->index, 0);
 }
 
+TEST(LinuxVideo, WhatIsNoCameraIsSaidToBeNone) {
+  const SystemClock clock;
+  V4l2Options options;
+  options.device = "/dev/null";
+  EXPECT_THAT(testing::message_of([&] { V4l2Camera(options, clock); }),
+              HasSubstr("/dev/null: no camera that streams"));
+  options.device = "/nowhere/video";
+  EXPECT_THAT(testing::message_of([&] { V4l2Camera(options, clock); }),
+              HasSubstr("/nowhere/video: No such file"));
+}
+
 /// Time that a test sets while another thread reads it.
 class SharedClock : public Clock {
  public:
@@ -448,6 +460,21 @@ TEST(V4l2Thread, GivesWhatTheCameraGivesUntilItIsStopped) {
   EXPECT_EQ(camera.counters().delivered, 20);
   EXPECT_EQ(camera.counters().dropped, 0);
   EXPECT_EQ(webcam->mapped, 0);
+}
+
+// A damaged JPEG is counted when it is decoded: here before the loop asks for it.
+TEST(V4l2Thread, DecodesBesideTheLoop) {
+  SharedClock clock;
+  const auto webcam = std::make_shared<FakeCamera>();
+  webcam->garbled = {0};
+  auto fake = std::make_unique<FakeVideo>(clock, std::vector<std::shared_ptr<FakeCamera>>{webcam});
+  FakeVideo* video = fake.get();
+  V4l2Camera camera({}, clock, std::move(fake));
+  camera.start();
+  clock.wait_until(kPeriodNs);
+  video->wake();
+  while (camera.counters().dropped == 0) std::this_thread::yield();
+  EXPECT_FALSE(camera.take_newest());
 }
 
 TEST(V4l2Thread, SeesThatTheCameraIsGoneAndBack) {

@@ -98,6 +98,12 @@ TEST(V4l2Choice, PrefersTheSizeToTheRateAndTheNearestFasterRate) {
   EXPECT_EQ(chosen(kWebcam, {std::nullopt, 1000, 700, 30}), "mjpeg 1280x720 at 30 Hz");
 }
 
+TEST(V4l2Choice, PrefersNoMoreFramesThanNeededToTheFormat) {
+  EXPECT_EQ(chosen({mode(PixelFormat::Yuyv, 640, 480, 60), mode(PixelFormat::Mjpeg, 640, 480, 30)},
+                   {std::nullopt, 640, 480, 30}),
+            "mjpeg 640x480 at 30 Hz");
+}
+
 TEST(V4l2Choice, ThirtyIsTwentyNinePointNineSeven) {
   std::vector<Mode> modes = {mode(PixelFormat::Mjpeg, 640, 480, 30)};
   modes.push_back({PixelFormat::Yuyv, 640, 480, {1001, 30000}});
@@ -126,8 +132,14 @@ TEST_F(V4l2Modes, WhatIsSetIsChecked) {
   EXPECT_EQ(std::get<Layout>(layout).size_bytes, 1280U * 480U);
   EXPECT_FALSE(std::get<Layout>(layout).limited_range);
 
-  camera_->other_size = {320, 240};
-  EXPECT_THAT(std::get<std::string>(set_mode(device(), wished)), HasSubstr("gives 320x240"));
+  for (const auto& [width, height] : {std::pair(640, 360), std::pair(320, 480)}) {
+    camera_->other_size = {width, height};
+    EXPECT_THAT(std::get<std::string>(set_mode(device(), wished)),
+                HasSubstr("gives " + std::to_string(width) + "x" + std::to_string(height)));
+  }
+  camera_->other_size.reset();
+  EXPECT_THAT(std::get<std::string>(set_mode(device(), mode(PixelFormat::Mjpeg, 640, 480, 30))),
+              HasSubstr("in yuyv"));
 }
 
 TEST_F(V4l2Modes, ARateThatTheCameraDoesNotKeepIsKnown) {

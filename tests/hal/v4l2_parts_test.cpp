@@ -120,10 +120,16 @@ TEST(V4l2Stamping, TimesOfAnotherClockAreReplacedByWhenTheBufferCame) {
   EXPECT_TRUE(stamping.replaced());
 }
 
+TEST(V4l2Stamping, ABufferMayBeFilledAMomentAfterTheClockWasRead) {
+  Stamping stamping(0);
+  EXPECT_EQ(stamping.stamp(stamped(kSecond + 300'000), kSecond), kSecond + 300'000);
+  EXPECT_FALSE(stamping.replaced());
+}
+
 RC_GTEST_PROP(V4l2StampingProperty, TimesIncreaseWhateverTheDriverSays,
               (const std::vector<std::pair<std::int32_t, bool>>& draws)) {
   Stamping stamping(30'000'000);
-  std::int64_t now_ns = kSecond;
+  std::int64_t now_ns = 10 * kSecond;  // more than any offset
   std::int64_t last_ns = 0;
   for (const auto& [offset, monotonic] : draws) {
     Filled filled = stamped(now_ns + offset);
