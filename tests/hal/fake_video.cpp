@@ -68,7 +68,12 @@ void set_text(__u8 (&field)[n], const std::string& text) {
 class OpenFake : public hal::v4l2::VideoDevice {
  public:
   OpenFake(const hal::Clock& clock, std::shared_ptr<FakeCamera> camera, int event_fd)
-      : clock_(clock), camera_(std::move(camera)), plugs_(camera_->plugs), event_fd_(event_fd) {}
+      : clock_(clock), camera_(std::move(camera)), plugs_(camera_->plugs), event_fd_(event_fd) {
+    ++camera_->open;
+  }
+  ~OpenFake() override { --camera_->open; }
+  OpenFake(const OpenFake&) = delete;
+  OpenFake& operator=(const OpenFake&) = delete;
 
   int ioctl(unsigned long request, void* argument) override;
 

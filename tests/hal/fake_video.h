@@ -70,6 +70,7 @@ struct FakeCamera {
   std::set<std::uint32_t> faulty, cut, garbled, skipped;  ///< sequence numbers of pictures
 
   int opened = 0;
+  int open = 0;                                                ///< now
   int streams = 0;                                             ///< begun
   int mapped = 0;                                              ///< buffers, now
   std::vector<std::pair<std::uint32_t, std::int32_t>> writes;  ///< to controls, also refused ones

@@ -222,6 +222,8 @@ TEST_F(V4l2CameraTest, ALongPauseCostsPicturesAndNothingElse) {
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->index, 10);
   EXPECT_EQ(camera_->counters().dropped + camera_->counters().delivered, 11);
+  clock_.wait_until(clock_.now_ns() + 3 * kPeriodNs);  // all four buffers are in use again
+  EXPECT_EQ(camera_->take_newest().value().index, 13);
   EXPECT_EQ(camera_->state(), CameraState::Streaming);
   EXPECT_EQ(webcam_->streams, 1);
 }
@@ -277,6 +279,7 @@ TEST_F(V4l2CameraTest, AnUnpluggedCameraIsLostClosedAndComesBackByItself) {
   EXPECT_FALSE(step());
   EXPECT_EQ(camera_->state(), CameraState::Lost);
   EXPECT_EQ(webcam_->mapped, 0);
+  EXPECT_EQ(webcam_->open, 0);
   pass(20.0);
   EXPECT_EQ(camera_->state(), CameraState::Lost);
   webcam_->plug();
@@ -335,6 +338,20 @@ TEST_F(V4l2CameraTest, ComesBackInTheSameModeUnderAnotherPathAndNoOther) {
   EXPECT_GT(periods_until_frame(), 0);
 }
 
+TEST_F(V4l2CameraTest, AnotherCameraUnderItsPathIsNotTaken) {
+  options_.device = "/dev/video0";
+  start();
+  ASSERT_TRUE(step());
+  webcam_->unplug();
+  step();
+  webcam_->card = "Stranger";
+  webcam_->plug();
+  pass(10.0);
+  EXPECT_EQ(camera_->state(), CameraState::Lost);
+  webcam_->card = "Fake Webcam";
+  EXPECT_GT(periods_until_frame(), 0);
+}
+
 // Whatever it is doing when the plug is pulled.
 TEST_F(V4l2CameraTest, MayBeUnpluggedAtAnyCall) {
   start();
@@ -348,6 +365,7 @@ TEST_F(V4l2CameraTest, MayBeUnpluggedAtAnyCall) {
     step();
     EXPECT_EQ(camera_->state(), CameraState::Lost) << calls;
     EXPECT_EQ(webcam_->mapped, 0) << calls;
+    EXPECT_EQ(webcam_->open, 0) << calls;
     webcam_->calls_until_unplugged = calls;  // and again while it is being opened
     webcam_->plug();
     video_->announce();
@@ -369,6 +387,9 @@ TEST_F(V4l2CameraTest, HoldsExposureFromTheNextFrameOnAndAfterItWasLost) {
   EXPECT_EQ(value(V4L2_CID_FOCUS_AUTO), 1);  // setting it here would keep the loop waiting
   step();
   EXPECT_EQ(value(V4L2_CID_FOCUS_AUTO), 0);
+  const std::size_t writes = webcam_->writes.size();
+  pass(1.0);
+  EXPECT_EQ(webcam_->writes.size(), writes);  // done once
 
   webcam_->unplug();
   step();
@@ -382,9 +403,6 @@ TEST_F(V4l2CameraTest, HoldsExposureFromTheNextFrameOnAndAfterItWasLost) {
   camera_->lock_exposure(false);
   step();
   EXPECT_EQ(value(V4L2_CID_FOCUS_AUTO), 1);
-  const std::size_t writes = webcam_->writes.size();
-  pass(1.0);
-  EXPECT_EQ(webcam_->writes.size(), writes);  // done once
 }
 
 TEST_F(V4l2CameraTest, AnExposureFreedWhileTheCameraIsGoneIsFreedWhenItIsBack) {

@@ -227,6 +227,11 @@ TEST(V4l2FrameSlot, CountsWhatIsForgotten) {
   slot.clear();
   EXPECT_FALSE(slot.take());
   EXPECT_EQ(slot.counters().dropped, 1);
+  slot.put(numbered(1));
+  slot.decode_ahead();
+  slot.clear();
+  EXPECT_FALSE(slot.take());
+  EXPECT_EQ(slot.counters().dropped, 2);
 }
 
 }  // namespace
