@@ -14,6 +14,7 @@
 #include "hal/evdev/evdev_buttons.h"
 #include "hal/gpiod/gpiod_buttons.h"
 #include "hal/gpiod/gpiod_led.h"
+#include "hal/kms/kms_display.h"
 #include "hal/merged_buttons.h"
 #include "hal/offscreen/offscreen_display.h"
 #include "hal/replay/replay_camera.h"
@@ -184,10 +185,27 @@ std::optional<std::pair<int, int>> parse_size(std::string_view text) {
   return size;
 }
 
-std::unique_ptr<hal::Display> open_display(const std::string& text) {
+std::unique_ptr<hal::Display> open_screen(const std::string& card, const config::Display& options,
+                                          const hal::Clock& clock) {
+  hal::KmsOptions kms{card, std::nullopt, *hal::kms::rotation_of(options.rotation_deg)};
+  if (!options.mode.empty()) {
+    kms.mode = hal::kms::parse_mode_wish(options.mode);
+    if (!kms.mode) {
+      throw config::InputError("display.mode: \"" + options.mode +
+                               "\" is no mode; expected e.g. 1280x720 or 1280x720@60");
+    }
+  }
+  return std::make_unique<hal::KmsDisplay>(kms, clock);
+}
+
+std::unique_ptr<hal::Display> open_display(const std::string& text, const config::Display& options,
+                                           const hal::Clock& clock) {
   const Name name = split(text);
+  if (name.kind == "kms") {
+    return open_screen(name.what, options, clock);
+  }
   if (name.kind != "offscreen") {
-    refuse("display", text, "offscreen:WIDTHxHEIGHT");
+    refuse("display", text, "kms, kms:CARD and offscreen:WIDTHxHEIGHT");
   }
   const auto size = parse_size(name.what);
   if (!size) {
@@ -207,7 +225,7 @@ Devices open_devices(const config::Config& config) {
   devices.camera = open_camera(config, *devices.clock);
   devices.buttons = open_buttons(config, *devices.clock);
   devices.status_led = open_status_led(config);
-  devices.display = open_display(options.display);
+  devices.display = open_display(options.display, config.display, *devices.clock);
   devices.display->make_current();
   devices.camera->start();
   return devices;

@@ -107,6 +107,12 @@ struct Evdev {
   bool grab = false;  ///< what the devices say is for the box alone
 };
 
+/// The screen of the box, where devices.display is kms.
+struct Display {
+  std::string mode;      ///< WIDTHxHEIGHT or WIDTHxHEIGHT@HZ; empty: what the screen prefers
+  int rotation_deg = 0;  ///< of pictures on the panel, clockwise: 0, 90, 180 or 270
+};
+
 /// What the box is made of; app/devices.cpp knows the kinds.
 struct Devices {
   std::string clock = "system";  ///< system, or virtual: as fast as the work allows
@@ -115,7 +121,7 @@ struct Devices {
   /// none, or one or several of script:FILE, gpio, evdev:any, evdev:PATH, evdev:NAME; with commas
   std::string buttons = "none";
   std::string status_led = "none";            ///< none, or gpio:LINE
-  std::string display = "offscreen:640x480";  ///< offscreen:WIDTHxHEIGHT
+  std::string display = "offscreen:640x480";  ///< offscreen:WIDTHxHEIGHT, kms or kms:CARD
 };
 
 /// What is asked of a camera that is opened through v4l2.
@@ -145,6 +151,7 @@ struct Config {
   Evdev evdev;
   Devices devices;
   Camera camera;
+  Display display;
   Log log;
 };
 

@@ -1,5 +1,6 @@
 #include "config/key.h"
 
+#include <algorithm>
 #include <optional>
 #include <sstream>
 
@@ -30,6 +31,11 @@ std::optional<double> as_number(const Value& value) {
   return std::nullopt;
 }
 
+/// True where there is nothing to choose from, too.
+bool is_choice(const std::string& text, const Key& key) {
+  return key.choices.empty() || std::ranges::find(key.choices, text) != key.choices.end();
+}
+
 bool in_range(double number, const Key& key) {
   return number >= key.min && number <= key.max;  // false for NaN
 }
@@ -45,7 +51,8 @@ bool take(bool& member, const Value& value, const Key& /*key*/) {
 
 bool take(int& member, const Value& value, const Key& key) {
   const auto* whole = std::get_if<std::int64_t>(&value);
-  if (whole == nullptr || !in_range(static_cast<double>(*whole), key)) {
+  if (whole == nullptr || !in_range(static_cast<double>(*whole), key) ||
+      !is_choice(std::to_string(*whole), key)) {
     return false;
   }
   member = static_cast<int>(*whole);
@@ -66,10 +73,7 @@ bool take(std::string& member, const Value& value, const Key& key) {
   if (text == nullptr) {
     return false;
   }
-  bool allowed = key.choices.empty() && static_cast<double>(text->size()) >= key.min;
-  for (const std::string_view choice : key.choices) {
-    allowed = allowed || *text == choice;
-  }
+  const bool allowed = is_choice(*text, key) && static_cast<double>(text->size()) >= key.min;
   if (allowed) {
     member = *text;
   }
@@ -78,15 +82,14 @@ bool take(std::string& member, const Value& value, const Key& key) {
 
 std::string range_of(const Key& key) {
   std::ostringstream words;
+  for (const std::string_view choice : key.choices) {
+    words << (words.tellp() == 0 ? "one of " : ", ") << choice;
+  }
+  if (!key.choices.empty()) return words.str();
   if (std::holds_alternative<bool*>(key.member)) {
     words << "true or false";
   } else if (std::holds_alternative<std::string*>(key.member)) {
-    for (const std::string_view choice : key.choices) {
-      words << (words.tellp() == 0 ? "one of " : ", ") << choice;
-    }
-    if (key.choices.empty()) {
-      words << (key.min > 0.0 ? "any text but an empty one" : "any text");
-    }
+    words << (key.min > 0.0 ? "any text but an empty one" : "any text");
   } else {
     words.precision(10);
     words << key.min << " to " << key.max;
@@ -102,6 +105,7 @@ std::string Key::full_name() const {
 
 std::string Key::allowed() const {
   const std::string range = range_of(*this);
+  if (!choices.empty()) return range;
   const std::string in_unit = range + " (" + std::string(unit) + ")";
   return std::visit(Overloaded{[&](const int*) { return "a whole number from " + in_unit; },
                                [&](const double*) { return "a number from " + in_unit; },

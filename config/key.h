@@ -19,7 +19,7 @@ struct Key {
   std::string_view unit;
   double min = 0.0;  ///< smallest and largest number allowed; of text, min 1 forbids none
   double max = 0.0;
-  std::vector<std::string_view> choices;  ///< of text
+  std::vector<std::string_view> choices;  ///< of text, or of whole numbers within the range
   std::string_view origin;                ///< why the default is what it is
 
   std::string full_name() const;  ///< section.name

@@ -477,6 +477,16 @@ std::vector<Key> schema(Config& c) {
        {},
        "two seconds at 30 Hz: webcams take up to one for their first frame"},
 
+      {"display", "mode", &c.display.mode, "mode", 0, 0, {}, "the sharpest picture"},
+      {"display",
+       "rotation_deg",
+       &c.display.rotation_deg,
+       "degrees",
+       0,
+       270,
+       {"0", "90", "180", "270"},
+       "a panel that is built in upright"},
+
       {"log",
        "level",
        &c.log.level,

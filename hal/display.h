@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 namespace lumibox::hal {
 
 /// A surface with an OpenGL ES 3 context of its own.
@@ -19,6 +21,10 @@ class Display {
 
   /// Shows what was drawn.
   virtual void present() = 0;
+
+  /// Pictures presented by now that came where they belong: on the screen, or nowhere if there is
+  /// nobody to see one. Stands still while the driver takes pictures but shows none.
+  virtual std::int64_t presented() const = 0;
 
   /// True if the context is gone with all that was in it, as after a reset of the GPU: known from
   /// the next present() or make_current() on. What is drawn until renew() goes nowhere.

@@ -3,41 +3,19 @@
 #include <EGL/eglext.h>
 
 #include <array>
-#include <cstdio>
 #include <mutex>
-#include <sstream>
 #include <string>
-#include <string_view>
 
-#include "config/error.h"
+#include "hal/egl/egl_tools.h"
 
 namespace lumibox::hal {
 namespace {
 
+using egl::initialised;
+using egl::lists;
+
 [[noreturn]] void fail(const std::string& step, EGLint error = eglGetError()) {
-  std::array<char, 16> code{};
-  std::snprintf(code.data(), code.size(), "0x%04x", static_cast<unsigned>(error));
-  throw config::InputError("offscreen display: " + step + " failed (EGL error " + code.data() +
-                           "); is a driver for EGL and OpenGL ES 3 installed?");
-}
-
-/// True if `name` is one of the words of an extension list; the list may be null.
-bool lists(const char* extensions, std::string_view name) {
-  std::istringstream words(extensions == nullptr ? "" : extensions);
-  for (std::string word; words >> word;) {
-    if (word == name) {
-      return true;
-    }
-  }
-  return false;
-}
-
-/// The display if it can be initialised, else EGL_NO_DISPLAY.
-EGLDisplay initialised(EGLDisplay display) {
-  if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE) {
-    return EGL_NO_DISPLAY;
-  }
-  return display;
+  egl::fail("offscreen display", step, error);
 }
 
 EGLDisplay open_first_device() {
@@ -79,9 +57,6 @@ EGLContext create_context(EGLDisplay display) {
   if (!lists(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context")) {
     fail("finding EGL_KHR_surfaceless_context");
   }
-  if (eglBindAPI(EGL_OPENGL_ES_API) == EGL_FALSE) {
-    fail("eglBindAPI");
-  }
   const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
                            EGL_OPENGL_ES3_BIT, EGL_NONE};
   EGLConfig config = nullptr;
@@ -89,15 +64,9 @@ EGLContext create_context(EGLDisplay display) {
   if (eglChooseConfig(display, wanted, &config, 1, &count) == EGL_FALSE || count == 0) {
     fail("eglChooseConfig for OpenGL ES 3");
   }
-  for (const EGLint minor : {1, 0}) {
-    const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, minor,
-                              EGL_NONE};
-    const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, version);
-    if (context != EGL_NO_CONTEXT) {
-      return context;
-    }
-  }
-  fail("eglCreateContext for OpenGL ES 3");
+  const EGLContext context = egl::create_context(display, config);
+  if (context == EGL_NO_CONTEXT) fail("eglCreateContext for OpenGL ES 3");
+  return context;
 }
 
 }  // namespace

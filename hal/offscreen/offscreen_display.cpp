@@ -42,11 +42,13 @@ class OffscreenDisplay::Impl {
   int height() const { return height_; }
   unsigned framebuffer() const { return framebuffer_; }
   bool lost() const { return lost_; }
+  std::int64_t presented() const { return presented_; }
   void make_current() { lost_ = !context_->make_current() || lost_; }
 
   void present() {
     glFlush();
     make_current();  // nothing else tells a loss here
+    if (!lost_) ++presented_;
   }
 
   void lose() {
@@ -92,6 +94,7 @@ class OffscreenDisplay::Impl {
   GLuint color_ = 0;
   GLuint framebuffer_ = 0;
   bool lost_ = false;
+  std::int64_t presented_ = 0;
 };
 
 OffscreenDisplay::OffscreenDisplay(int width, int height)
@@ -112,6 +115,9 @@ unsigned OffscreenDisplay::framebuffer() const {
 }
 void OffscreenDisplay::present() {
   impl_->present();
+}
+std::int64_t OffscreenDisplay::presented() const {
+  return impl_->presented();
 }
 bool OffscreenDisplay::lost() const {
   return impl_->lost();

@@ -20,6 +20,7 @@ class OffscreenDisplay : public Display {
   void make_current() override;
   unsigned framebuffer() const override;
   void present() override;
+  std::int64_t presented() const override;
   bool lost() const override;
   void renew() override;
 

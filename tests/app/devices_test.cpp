@@ -124,6 +124,19 @@ TEST(Devices, ARealCameraNeedsRealTimeAndACalibrationThatCanBeRead) {
   EXPECT_THAT(complaint(config), AllOf(HasSubstr("devices.clock"), HasSubstr("real camera")));
 }
 
+TEST(Devices, TheScreenAndItsModeAreNamed) {
+  const testing::Recording recording;
+  config::Config config;
+  config.devices.camera = "replay:" + recording.folder().string();
+  config.devices.display = "kms:/nowhere/card0";
+  EXPECT_THAT(complaint(config), HasSubstr("display kms: /nowhere/card0: No such file"));
+  config.display.mode = "huge";
+  EXPECT_THAT(complaint(config),
+              AllOf(HasSubstr("display.mode: \"huge\" is no mode"), HasSubstr("1280x720@60")));
+  config.devices.display = "window:640x480";
+  EXPECT_THAT(complaint(config), AllOf(HasSubstr("devices.display"), HasSubstr("kms:CARD")));
+}
+
 TEST(Devices, MissingFilesAreNamed) {
   config::Config config;
   config.devices.camera = "replay:/nowhere/walk";

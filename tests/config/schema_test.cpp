@@ -19,7 +19,7 @@ std::vector<Key> numbers(Config& config) {
   std::vector<Key> keys;
   for (const Key& key : schema(config)) {
     if (!std::holds_alternative<std::string*>(key.member) &&
-        !std::holds_alternative<bool*>(key.member)) {
+        !std::holds_alternative<bool*>(key.member) && key.choices.empty()) {
       keys.push_back(key);
     }
   }

@@ -1,0 +1,83 @@
+#include "hal/kms/output.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+#include "config/error.h"
+
+namespace lumibox::hal::kms {
+namespace {
+
+bool usable(const Connector& connector) {
+  return connector.connected && !connector.modes.empty() && !connector.crtcs.empty();
+}
+
+const Connector* first_usable(std::span<const Connector> connectors) {
+  const auto found = std::ranges::find_if(connectors, usable);
+  return found == connectors.end() ? nullptr : &*found;
+}
+
+/// Why there is no picture to be had from this card; empty if there is.
+std::string fault_of(const CardFound& card) {
+  if (card.error == EACCES || card.error == EPERM) {
+    return "permission denied; expected a user in the groups video and render";
+  }
+  if (card.error != 0) {
+    return std::generic_category().message(card.error) + "; expected a graphics card";
+  }
+  if (!card.sets_modes) return "drives no screens; expected a card that sets modes";
+  if (first_usable(card.connectors) != nullptr) return {};
+  std::string sockets;
+  for (const Connector& connector : card.connectors) {
+    sockets += (sockets.empty() ? "" : ", ") + connector.name;
+  }
+  return "no screen is connected; expected one at " + (sockets.empty() ? "a socket" : sockets);
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+  throw config::InputError("display kms:" + path + ": " + why);
+}
+
+void require_mode(const CardFound& card, const std::optional<ModeWish>& wish) {
+  const Connector& screen = *first_usable(card.connectors);
+  if (choose_mode(screen.modes, wish)) return;
+  refuse(card.path, "the screen at " + screen.name + " has no mode " + name_of(wish) +
+                        " (display.mode); expected one of " + names_of(screen.modes));
+}
+
+}  // namespace
+
+std::optional<Output> choose_output(std::span<const Connector> connectors,
+                                    const std::optional<ModeWish>& wish) {
+  const Connector* screen = first_usable(connectors);
+  if (screen == nullptr) return std::nullopt;
+  std::optional<Mode> mode = choose_mode(screen->modes, wish);
+  if (!mode) mode = choose_mode(screen->modes, std::nullopt);
+  return Output{{screen->crtcs.front(), screen->id}, screen->name, *mode};
+}
+
+std::size_t choose_card(std::span<const CardFound> cards, std::string_view asked_for,
+                        const std::optional<ModeWish>& wish) {
+  std::string faults;
+  for (std::size_t i = 0; i < cards.size(); ++i) {
+    if (!asked_for.empty() && cards[i].path != asked_for) continue;
+    const std::string fault = fault_of(cards[i]);
+    if (fault.empty()) {
+      require_mode(cards[i], wish);
+      return i;
+    }
+    faults += (faults.empty() ? "" : "; ") + cards[i].path + ": " + fault;
+  }
+  if (!faults.empty()) throw config::InputError("display kms: " + faults);
+  refuse(std::string(asked_for), "no such card; expected one in /dev/dri");
+}
+
+std::optional<std::uint32_t> choose_format(std::span<const std::uint32_t> shown,
+                                           std::span<const std::uint32_t> drawn) {
+  const auto both = std::ranges::find_if(
+      drawn, [&](std::uint32_t format) { return std::ranges::find(shown, format) != shown.end(); });
+  return both == drawn.end() ? std::nullopt : std::optional(*both);
+}
+
+}  // namespace lumibox::hal::kms
