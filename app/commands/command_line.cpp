@@ -58,10 +58,17 @@ void add_reference(CLI::App* command, bool& reference) {
 }
 
 void add_run(CLI::App& app) {
-  add_command(
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* command = add_command(
       app, "run", "The box itself: camera, buttons and display as the configuration names them.",
       "lumibox run --set 'devices.camera=replay:walk/' --set 'devices.buttons=script:presses.txt'",
-      std::make_shared<RunOptions>(), run);
+      options, run);
+  command
+      ->add_option("--last-good", options->last_good,
+                   "keep a copy of --config here once the box works with it, and use that when it "
+                   "does not")
+      ->type_name("FILE")
+      ->needs(command->get_option("--config"));
 }
 
 void add_cameras(CLI::App& app) {

@@ -17,6 +17,8 @@ namespace lumibox::app {
 
 struct RunOptions {
   config::Sources sources;
+  /// Copy of sources.file as it was when the box last worked, and what is used where that does not.
+  std::optional<std::filesystem::path> last_good;
 };
 void run(const RunOptions& options);
 

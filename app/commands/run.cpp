@@ -4,7 +4,9 @@
 #include "app/attempts.h"
 #include "app/commands/commands.h"
 #include "app/commands/support.h"
+#include "app/last_good.h"
 #include "app/loop.h"
+#include "app/service.h"
 
 namespace lumibox::app {
 namespace {
@@ -15,28 +17,65 @@ void ask_to_stop(int) {
   stop_asked = 1;
 }
 
-}  // namespace
-
-void run(const RunOptions& options) {
-  const config::Config config = load_config(options.sources);
-  Devices devices = open_devices(config);
-  make_folder(config.capture.folder);
-  const geometry::Camera camera(devices.camera->profile());
-  Loop loop(devices, config, config.capture.folder, devices.lockstep ? kLockstep : kThreaded,
-            find_saved_capture(config.capture.folder, camera, config.tracking.pyramid_levels));
-  std::signal(SIGINT, ask_to_stop);
-  std::signal(SIGTERM, ask_to_stop);
-  Attempts attempts;  // what the run came to is said whatever went wrong
-  attempts.attempt([&] {
-    loop.run_and_finish(
-        [&] { return stop_asked == 0 && devices.camera->state() != hal::CameraState::Ended; });
-  });
+void print(const Loop& loop) {
   const LoopStatistics statistics = loop.statistics();
   std::printf("%lld ticks, %lld late; %lld frames, %lld tracked; %zu perspectives\n",
               static_cast<long long>(statistics.ticks),
               static_cast<long long>(statistics.late_ticks),
               static_cast<long long>(statistics.frames), static_cast<long long>(statistics.tracked),
               loop.recorder().light_field().perspectives().size());
+}
+
+/// What happens between two ticks: the service manager is told how the box is, and settings with
+/// which pictures came on the screen are kept.
+class Caretaker {
+ public:
+  Caretaker(const RunOptions& options, const OpenBox& box, const Loop& loop)
+      : options_(options), box_(box), loop_(loop) {
+    keeps_settings_ = options.last_good && options.sources.file && !box.problem;
+  }
+
+  /// False if the box is to end.
+  bool go_on() {
+    const std::int64_t presented = box_.devices.display->presented();
+    service_.tick(box_.devices.clock->now_ns(), presented, status());
+    if (keeps_settings_ && presented > 0) {
+      keep_last_good(*options_.sources.file, *options_.last_good);
+      keeps_settings_ = false;
+    }
+    const bool goes_on = stop_asked == 0 && box_.devices.camera->state() != hal::CameraState::Ended;
+    if (!goes_on) service_.stopping();
+    return goes_on;
+  }
+
+ private:
+  std::string status() const {
+    return (box_.problem ? "on the last good settings: " : "") + loop_.picture().title;
+  }
+
+  const RunOptions& options_;
+  const OpenBox& box_;
+  const Loop& loop_;
+  Service service_;
+  bool keeps_settings_;
+};
+
+}  // namespace
+
+void run(const RunOptions& options) {
+  OpenBox box = open_box(options.sources, options.last_good);
+  make_folder(box.config.capture.folder);
+  const geometry::Camera camera(box.devices.camera->profile());
+  Loop loop(
+      box.devices, box.config, box.config.capture.folder,
+      box.devices.lockstep ? kLockstep : kThreaded,
+      find_saved_capture(box.config.capture.folder, camera, box.config.tracking.pyramid_levels));
+  std::signal(SIGINT, ask_to_stop);
+  std::signal(SIGTERM, ask_to_stop);
+  Caretaker caretaker(options, box, loop);
+  Attempts attempts;  // what the run came to is said whatever went wrong
+  attempts.attempt([&] { loop.run_and_finish([&] { return caretaker.go_on(); }); });
+  print(loop);
   attempts.rethrow();
 }
 

@@ -26,6 +26,13 @@ TEST(ShippedConfig, StatesTheDefaults) {
   EXPECT_EQ(statements(shipped), statements(defaults));
 }
 
+TEST(ShippedConfig, TheBoxBeginsWithSettingsThatAreAllowed) {
+  const std::string file = std::string(LUMIBOX_SOURCE_DIR) + "/systemd/appliance.toml";
+  const Config config = load({.system_file = {}, .file = file});
+  EXPECT_EQ(config.devices.display, "kms");
+  EXPECT_THAT(config.capture.folder, ::testing::StartsWith("/var/lib/lumibox/"));
+}
+
 // What a person reads above a key is what the program enforces: the line before each key is the
 // schema's own statement of its default, unit, range and origin, and prose stands before that.
 TEST(ShippedConfig, StatesEveryKeyWithUnitRangeAndOrigin) {

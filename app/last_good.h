@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "app/devices.h"
+#include "config/config.h"
+#include "config/loader.h"
+
+namespace lumibox::app {
+
+/// A box that is configured and whose devices are open.
+struct OpenBox {
+  config::Config config;
+  Devices devices;
+  std::optional<std::string> problem;  ///< why it runs on the last good settings instead
+};
+
+/// As the sources say. If that is wrong, or the devices that it names cannot be opened, and there
+/// is a file `last_good`, as that says in place of `sources.file`, and what was wrong is logged.
+/// Throws config::InputError if neither will do.
+OpenBox open_box(const config::Sources& sources,
+                 const std::optional<std::filesystem::path>& last_good);
+
+/// Keeps a copy of a configuration that the box has been seen to work with; it is there whole even
+/// if the power goes meanwhile. A copy that cannot be written is a warning.
+void keep_last_good(const std::filesystem::path& file, const std::filesystem::path& last_good);
+
+}  // namespace lumibox::app

@@ -1,0 +1,83 @@
+#include "app/last_good.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/input_error.h"
+#include "support/recording.h"
+#include "support/source_file.h"
+
+namespace lumibox::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+class LastGood : public ::testing::Test {
+ protected:
+  /// Settings with a rate of their own, by which they are known, and a display.
+  std::string settings(const std::string& rate, const std::string& display = "offscreen:32x24") {
+    return "[loop]\nrate_hz = " + rate +
+           "\n[devices]\ncamera = \"replay:" + recording_.folder().string() + "\"\ndisplay = \"" +
+           display + "\"\n";
+  }
+  config::Sources sources(const std::string& text) {
+    return {.system_file = {}, .file = recording_.dir().write("lumibox.toml", text)};
+  }
+
+  const testing::Recording recording_;
+  const std::filesystem::path good_ = recording_.dir() / "good.toml";
+};
+
+TEST_F(LastGood, SettingsThatWorkAreUsed) {
+  recording_.dir().write("good.toml", settings("7"));
+  const OpenBox box = open_box(sources(settings("9")), good_);
+  EXPECT_EQ(box.config.loop.rate_hz, 9.0);
+  EXPECT_FALSE(box.problem);
+}
+
+TEST_F(LastGood, ThoseThatDoNotGiveWayToTheLastGoodOnes) {
+  recording_.dir().write("good.toml", settings("7"));
+  for (const std::string& wrong :
+       {settings("-1"), std::string("no TOML"), settings("9", "kms:/nowhere/card0")}) {
+    const OpenBox box = open_box(sources(wrong), good_);
+    EXPECT_EQ(box.config.loop.rate_hz, 7.0) << wrong;
+    EXPECT_EQ(box.devices.display->width(), 32);
+    ASSERT_TRUE(box.problem);
+  }
+  EXPECT_THAT(*open_box(sources(settings("-1")), good_).problem, HasSubstr("lumibox.toml:2"));
+}
+
+TEST_F(LastGood, WithoutThemTheFaultIsSaid) {
+  EXPECT_THAT(testing::message_of([&] { open_box(sources(settings("-1")), good_); }),
+              HasSubstr("lumibox.toml:2"));
+  EXPECT_THAT(testing::message_of([&] { open_box(sources(settings("-1")), std::nullopt); }),
+              HasSubstr("lumibox.toml:2"));
+}
+
+TEST_F(LastGood, IfNeitherWillDoTheLatterIsSaid) {
+  recording_.dir().write("good.toml", settings("-7"));
+  EXPECT_THAT(testing::message_of([&] { open_box(sources(settings("-1")), good_); }),
+              HasSubstr("good.toml:2"));
+}
+
+TEST_F(LastGood, AreACopyOfWhatWorked) {
+  const config::Sources box = sources(settings("9"));
+  keep_last_good(*box.file, good_);
+  EXPECT_EQ(testing::read_text(good_), settings("9"));
+  const auto written = std::filesystem::last_write_time(good_);
+  keep_last_good(*box.file, good_);
+  EXPECT_EQ(std::filesystem::last_write_time(good_), written) << "not written without need";
+  sources(settings("11"));
+  keep_last_good(*box.file, good_);
+  EXPECT_EQ(testing::read_text(good_), settings("11"));
+}
+
+TEST_F(LastGood, ThatCannotBeKeptAreAWarning) {
+  const config::Sources box = sources(settings("9"));
+  ::testing::internal::CaptureStdout();
+  keep_last_good(*box.file, "/nowhere/good.toml");
+  EXPECT_THAT(::testing::internal::GetCapturedStdout(), HasSubstr("/nowhere/good.toml"));
+}
+
+}  // namespace
+}  // namespace lumibox::app
