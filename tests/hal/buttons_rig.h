@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <ostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -87,7 +87,11 @@ struct ButtonsBackend {
   std::function<std::unique_ptr<ButtonsRig>()> make_rig;
 };
 
-/// gtest names the tests by the backend.
+/// gtest names the tests by the backend, and says which it was.
+inline void PrintTo(const ButtonsBackend& backend, std::ostream* out) {
+  *out << backend.name;
+}
+
 inline std::string backend_name(const ::testing::TestParamInfo<ButtonsBackend>& info) {
   return info.param.name;
 }
