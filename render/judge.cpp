@@ -13,11 +13,11 @@ namespace {
 
 using lightfield::Perspective;
 
-constexpr std::size_t kMembers = 8;    // of a jury: as many as a picture on a shape is made of
-constexpr int kReachShare = 10;        // a shift is looked for up to a tenth of the subject's width
+constexpr std::size_t kMembers = 8;  // of a jury: as many as a picture on a shape is made of
+constexpr int kReachShare = 10;      // a shift is looked for up to a tenth of the subject's width
 constexpr double kFeatherShare = 0.05;  // of the height: what render.feather_px is of 480 rows
-constexpr double kLeastCovered = 0.5;  // of the subject, for shift and difference
-constexpr int kLeastReach = 3;         // pixels
+constexpr double kLeastCovered = 0.5;   // of the subject, for shift and difference
+constexpr int kLeastReach = 3;          // pixels
 
 /// The perspectives with the pictures of those alone that count; indices stay.
 std::vector<Perspective> only(const std::vector<Perspective>& perspectives,
