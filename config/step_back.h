@@ -9,4 +9,8 @@ namespace lumibox::config {
 /// says what (`"pictures are judged"`) competes with the loop.
 void step_back(const std::string& work);
 
+/// From now on the calling thread has about a tenth of the time of another that wants to work, and
+/// all that is left: for what must go on, but not now.
+void give_way(const std::string& work);
+
 }  // namespace lumibox::config

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "config/log.h"
+#include "config/step_back.h"
 #include "tracking/covisibility.h"
 #include "tracking/keyframe_culling.h"
 #include "tracking/loop_closing.h"
@@ -124,6 +125,7 @@ std::optional<std::string> Mapper::error() const {
 }
 
 void Mapper::run() {
+  config::give_way("the map is made");
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock,

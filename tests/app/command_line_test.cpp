@@ -168,9 +168,9 @@ TEST(CommandLine, OffersOnlyWhatItHas) {
 }
 
 TEST(CommandLine, NamesTheCommandThatThereIsNot) {
-  EXPECT_THAT(lumibox("fly").err, AllOf(HasSubstr("fly"), HasSubstr("expected run, demo, track")));
+  EXPECT_THAT(lumibox("fly").err, AllOf(HasSubstr("fly"), HasSubstr("expected run, cameras, demo, track")));
   EXPECT_THAT(lumibox("--fly").err, HasSubstr("--fly"));
-  EXPECT_THAT(lumibox("").err, HasSubstr("expected run, demo, track"));
+  EXPECT_THAT(lumibox("").err, HasSubstr("expected run, cameras, demo, track"));
 }
 
 /// A calibration of these pictures, with a profile that must not be touched.
