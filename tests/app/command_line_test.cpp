@@ -168,7 +168,8 @@ TEST(CommandLine, OffersOnlyWhatItHas) {
 }
 
 TEST(CommandLine, NamesTheCommandThatThereIsNot) {
-  EXPECT_THAT(lumibox("fly").err, AllOf(HasSubstr("fly"), HasSubstr("expected run, cameras, demo, track")));
+  EXPECT_THAT(lumibox("fly").err,
+              AllOf(HasSubstr("fly"), HasSubstr("expected run, cameras, demo, track")));
   EXPECT_THAT(lumibox("--fly").err, HasSubstr("--fly"));
   EXPECT_THAT(lumibox("").err, HasSubstr("expected run, cameras, demo, track"));
 }
