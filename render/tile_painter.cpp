@@ -1,5 +1,6 @@
 #include "render/tile_painter.h"
 
+#include <cstddef>
 #include <string>
 
 #include "render/layer_program.h"
@@ -13,6 +14,14 @@ std::string definitions(const TilePainter::Needs& needs) {
   text += needs.distortion ? "#define DISTORTION\n" : "";
   text += needs.gains ? "#define GAINS\n" : "";
   return text.append(layers_block());
+}
+
+/// Whole numbers, of a block each.
+void add_attribute(GLuint location, GLint count, std::size_t offset) {
+  glEnableVertexAttribArray(location);
+  glVertexAttribIPointer(location, count, GL_INT, sizeof(Tiles::Block),
+                         reinterpret_cast<const void*>(offset));
+  glVertexAttribDivisor(location, 1);
 }
 
 std::string lens_and_light() {
@@ -37,9 +46,8 @@ TilePainter::TilePainter()
       lists_(gl::make_buffer()) {
   glBindVertexArray(vertex_array_.name());
   glBindBuffer(GL_ARRAY_BUFFER, instances_.name());
-  glEnableVertexAttribArray(0);
-  glVertexAttribIPointer(0, 3, GL_INT, sizeof(Tiles::Tile), nullptr);
-  glVertexAttribDivisor(0, 1);
+  add_attribute(0, 4, offsetof(Tiles::Block, column));
+  add_attribute(1, 1, offsetof(Tiles::Block, shows));
   glBindBuffer(GL_UNIFORM_BUFFER, lists_.name());
   glBufferData(GL_UNIFORM_BUFFER, Tiles::kMostEntries, nullptr, GL_DYNAMIC_DRAW);
 }
@@ -63,12 +71,12 @@ void TilePainter::draw_mixed(const Tiles& tiles) {
   draw(tiles.mixed);
 }
 
-void TilePainter::draw(const std::vector<Tiles::Tile>& tiles) {
+void TilePainter::draw(const std::vector<Tiles::Block>& blocks) {
   glBindVertexArray(vertex_array_.name());
   glBindBuffer(GL_ARRAY_BUFFER, instances_.name());
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(tiles.size() * sizeof(Tiles::Tile)),
-               tiles.data(), GL_STREAM_DRAW);
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(tiles.size()));
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(blocks.size() * sizeof(Tiles::Block)),
+               blocks.data(), GL_STREAM_DRAW);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(blocks.size()));
 }
 
 }  // namespace lumibox::render

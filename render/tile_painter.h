@@ -37,7 +37,7 @@ class TilePainter {
     explicit Alone(const Needs& needs);
   };
 
-  void draw(const std::vector<Tiles::Tile>& tiles);
+  void draw(const std::vector<Tiles::Block>& blocks);
 
   gl::VertexArray vertex_array_;
   gl::Buffer instances_;

@@ -14,16 +14,18 @@ struct Tiles {
   static_assert(kMaxLayers < kEnd);
   static constexpr std::size_t kMostEntries = 16384;  ///< bytes of a uniform block, at least
 
-  /// One tile as tile.vert has it.
-  struct Tile {
+  /// Tiles beside each other that show the same, as tile.vert has them.
+  struct Block {
     std::int32_t column = 0;
-    std::int32_t row = 0;    ///< the lowest is 0, as gl_FragCoord has it
+    std::int32_t row = 0;  ///< the lowest is 0, as gl_FragCoord has it
+    std::int32_t columns = 1;
+    std::int32_t rows = 1;
     std::int32_t shows = 0;  ///< its layer, or where in `lists` its list begins
   };
 
-  int size = 1;                     ///< pixels of the view, both ways
-  std::vector<Tile> alone;          ///< a single layer shows there, opaque all over: no list needed
-  std::vector<Tile> mixed;          ///< all others
+  int size = 1;                     ///< of a tile, pixels of the view both ways
+  std::vector<Block> alone;         ///< a single layer shows there, opaque all over: no list needed
+  std::vector<Block> mixed;         ///< all others
   std::vector<std::uint8_t> lists;  ///< of `mixed`
 };
 

@@ -1,6 +1,7 @@
-// One square of the view in each instance. ALONE: where its corners lie in the picture of its one layer. NEAR:
+// One block of tiles of the view in each instance. ALONE: where its corners lie in the picture of its one layer. NEAR:
 // where they lie in those of the first layers of its list.
-layout(location = 0) in ivec3 tile;  // column, row, what it shows
+layout(location = 0) in ivec4 tiles;  // column, row, columns, rows
+layout(location = 1) in int shows;    // a layer, or where a list begins
 uniform int tile_size;
 uniform vec2 middle;  // of the view, pixels
 #ifdef ALONE
@@ -22,10 +23,10 @@ flat out int near_count;
 #endif
 
 void main() {
-  vec2 place = vec2((tile.xy + ivec2(gl_VertexID & 1, gl_VertexID >> 1)) * tile_size) - middle;
+  vec2 place = vec2((tiles.xy + tiles.zw * ivec2(gl_VertexID & 1, gl_VertexID >> 1)) * tile_size) - middle;
   gl_Position = vec4(place / middle, 0.0, 1.0);
 #ifdef ALONE
-  Layer layer = layers[tile.z];
+  Layer layer = layers[shows];
   source = layer.from_x.xyz * place.x + layer.from_y.xyz * place.y + layer.from_1.xyz;
   slot = layer.from_x.w;
   gain = layer.from_1.w;
@@ -35,7 +36,7 @@ void main() {
   lens = layer.lens;
 #endif
 #else
-  list = tile.z;
+  list = shows;
 #endif
 #ifdef NEAR
   near_count = 0;
