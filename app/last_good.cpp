@@ -1,5 +1,9 @@
 #include "app/last_good.h"
 
+#include <system_error>
+#include <utility>
+
+#include "app/commands/recorded.h"
 #include "app/commands/support.h"
 #include "config/error.h"
 #include "config/input_file.h"
@@ -10,8 +14,10 @@ namespace lumibox::app {
 namespace {
 
 OpenBox open_as_configured(const config::Sources& sources) {
+  // The file may be another by the time that they have been seen to work.
+  std::string settings = sources.file ? config::read_text(*sources.file) : std::string();
   const config::Config config = load_config(sources);
-  return {config, open_devices(config), std::nullopt};
+  return {config, open_devices(config), std::move(settings), std::nullopt};
 }
 
 }  // namespace
@@ -32,11 +38,19 @@ OpenBox open_box(const config::Sources& sources,
   }
 }
 
-void keep_last_good(const std::filesystem::path& file, const std::filesystem::path& last_good) {
+void check_last_good(const std::filesystem::path& last_good) {
+  refuse_recorded(last_good);
+  std::error_code error;
+  const auto status = std::filesystem::symlink_status(last_good, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    throw config::InputError(last_good, "is no file; expected one for the last good settings");
+  }
+}
+
+void keep_last_good(const std::string& settings, const std::filesystem::path& last_good) {
   try {
-    const std::string text = config::read_text(file);
-    if (!config::fault_of_file(last_good) && config::read_text(last_good) == text) return;
-    lightfield::DurableFiles().write(last_good, text);
+    if (!config::fault_of_file(last_good) && config::read_text(last_good) == settings) return;
+    lightfield::DurableFiles().write(last_good, settings);
   } catch (const config::InputError& error) {
     config::log_warning(std::string("the settings are not kept as the last good ones: ") +
                         error.what());

@@ -14,6 +14,7 @@ namespace lumibox::app {
 struct OpenBox {
   config::Config config;
   Devices devices;
+  std::string settings;                ///< text of the file that they are from, if from one
   std::optional<std::string> problem;  ///< why it runs on the last good settings instead
 };
 
@@ -23,8 +24,12 @@ struct OpenBox {
 OpenBox open_box(const config::Sources& sources,
                  const std::optional<std::filesystem::path>& last_good);
 
-/// Keeps a copy of a configuration that the box has been seen to work with; it is there whole even
-/// if the power goes meanwhile. A copy that cannot be written is a warning.
-void keep_last_good(const std::filesystem::path& file, const std::filesystem::path& last_good);
+/// Throws config::InputError if settings cannot be kept there: in a capture, or where something is
+/// that is no file.
+void check_last_good(const std::filesystem::path& last_good);
+
+/// Keeps settings that the box has been seen to work with; they are there whole even if the power
+/// goes meanwhile. A copy that cannot be written is a warning.
+void keep_last_good(const std::string& settings, const std::filesystem::path& last_good);
 
 }  // namespace lumibox::app

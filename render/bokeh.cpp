@@ -29,8 +29,9 @@ int Bokeh::draw(Renderer& renderer, LightMean& mean, int rows) {
   const int height = view.camera.height();
   if (next_ == 0 && row_ == 0) mean.begin(view.camera.width(), height);
   rows = std::min(rows, height - row_);
-  renderer.draw(view, perspectives_, *fitted_, mean.framebuffer(), Rows{row_, rows});
-  row_ += rows;
+  const bool whole =
+      renderer.draw(view, perspectives_, *fitted_, mean.framebuffer(), Rows{row_, rows});
+  row_ = whole ? row_ + rows : 0;
   if (row_ == height) {
     mean.add();
     fitted_.reset();

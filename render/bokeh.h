@@ -30,7 +30,8 @@ class Bokeh {
   /// Makes the next rows ready to be drawn. False if depth maps that they need are still to come.
   bool prepare(ProxyGeometry& proxy);
 
-  /// Draws some more rows, of one view at the most, and says how many. Precondition: prepare() was
+  /// Draws some more rows, of one view at the most, and says how many. A view of which pictures are
+  /// still to come is begun again: what is in the mean stays there. Precondition: prepare() was
   /// true and the bokeh is possible and not complete.
   int draw(Renderer& renderer, LightMean& mean, int rows);
 

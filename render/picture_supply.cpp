@@ -22,7 +22,7 @@ constexpr std::size_t kReach = 2;
 SuppliedView with_weight(std::vector<Layer> layers) {
   const std::size_t planned = layers.size();
   std::erase_if(layers, [](const Layer& layer) { return layer.weight <= 0.0; });
-  return {std::move(layers), {}, planned};
+  return {std::move(layers), {}, planned, true};
 }
 
 }  // namespace
@@ -74,6 +74,7 @@ SuppliedView PictureSupply::supply_some(const View& view,
       if (is_there(i)) there[i].photo = perspectives[i].photo;
     }
     supplied = with_weight(plan_view(view, there, settings));
+    supplied.complete = false;
   }
   supplied.slots = slots_of(supplied.layers, perspectives);
   return supplied;

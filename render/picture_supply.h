@@ -16,6 +16,7 @@ struct SuppliedView {
   std::vector<Layer> layers;
   std::vector<int> slots;   ///< of the layers' pictures
   std::size_t planned = 0;  ///< layers, with those without a weight
+  bool complete = true;     ///< none of its pictures is still to come
 };
 
 /// Brings the pictures of views to the GPU: all at once; or, with somebody who reads ahead, as

@@ -39,11 +39,12 @@ class Renderer::Impl {
     glBufferData(GL_UNIFORM_BUFFER, sizeof(LayerUniforms) * kMaxLayers, nullptr, GL_DYNAMIC_DRAW);
   }
 
-  void draw(const View& view, const std::vector<Perspective>& perspectives,
+  bool draw(const View& view, const std::vector<Perspective>& perspectives,
             const Settings& settings, unsigned framebuffer, const std::optional<Rows>& rows) {
     const SuppliedView supplied = supply_.supply(view, perspectives, settings);
     const LayerData data = fill_uniforms(supplied, perspectives, view, settings);
     draw_layers(data, supplied, view, settings, framebuffer, rows);
+    return supplied.complete;
   }
 
   void upload(const Perspective& perspective) { supply_.upload(perspective); }
@@ -201,9 +202,9 @@ Renderer::Renderer(const config::Render& options, ReadAhead* ahead)
     : impl_(std::make_unique<Impl>(options, ahead)) {}
 Renderer::~Renderer() = default;
 
-void Renderer::draw(const View& view, const std::vector<Perspective>& perspectives,
+bool Renderer::draw(const View& view, const std::vector<Perspective>& perspectives,
                     const Settings& settings, unsigned framebuffer, std::optional<Rows> rows) {
-  impl_->draw(view, perspectives, settings, framebuffer, rows);
+  return impl_->draw(view, perspectives, settings, framebuffer, rows);
 }
 
 void Renderer::prepare(const View& view, const std::shared_ptr<const geometry::Camera>& source,

@@ -31,9 +31,9 @@ class Renderer {
 
   /// Draws the view into `framebuffer`, which has the size of view.camera; every pixel is written.
   /// Pictures not yet on the GPU are uploaded first, or if they are read ahead as they come: until
-  /// then the next nearest take their place. Those that are lost are left out. With `rows` only
-  /// those are written.
-  void draw(const View& view, const std::vector<lightfield::Perspective>& perspectives,
+  /// then the next nearest take their place, and it says false. Those that are lost are left out.
+  /// With `rows` only those are written.
+  bool draw(const View& view, const std::vector<lightfield::Perspective>& perspectives,
             const Settings& settings, unsigned framebuffer,
             std::optional<Rows> rows = std::nullopt);
 

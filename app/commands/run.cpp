@@ -40,7 +40,7 @@ class Caretaker {
     const std::int64_t presented = box_.devices.display->presented();
     service_.tick(box_.devices.clock->now_ns(), presented, status());
     if (keeps_settings_ && presented > 0) {
-      keep_last_good(*options_.sources.file, *options_.last_good);
+      keep_last_good(box_.settings, *options_.last_good);
       keeps_settings_ = false;
     }
     const bool goes_on = stop_asked == 0 && box_.devices.camera->state() != hal::CameraState::Ended;
@@ -63,6 +63,9 @@ class Caretaker {
 }  // namespace
 
 void run(const RunOptions& options) {
+  // Before the devices are opened: the screen is given back only by who ends as it should.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, ask_to_stop);
+  if (options.last_good) check_last_good(*options.last_good);
   OpenBox box = open_box(options.sources, options.last_good);
   make_folder(box.config.capture.folder);
   const geometry::Camera camera(box.devices.camera->profile());
@@ -70,8 +73,6 @@ void run(const RunOptions& options) {
       box.devices, box.config, box.config.capture.folder,
       box.devices.lockstep ? kLockstep : kThreaded,
       find_saved_capture(box.config.capture.folder, camera, box.config.tracking.pyramid_levels));
-  std::signal(SIGINT, ask_to_stop);
-  std::signal(SIGTERM, ask_to_stop);
   Caretaker caretaker(options, box, loop);
   Attempts attempts;  // what the run came to is said whatever went wrong
   attempts.attempt([&] { loop.run_and_finish([&] { return caretaker.go_on(); }); });

@@ -5,6 +5,7 @@
 #include <sys/ioctl.h>
 
 #include <array>
+#include <atomic>
 #include <csignal>
 
 namespace lumibox::hal::kms {
@@ -14,7 +15,8 @@ constexpr int kLeaveSignal = SIGUSR1;
 constexpr int kReturnSignal = SIGUSR2;
 constexpr std::array kCrashes = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
 
-volatile std::sig_atomic_t asked_signal = 0;
+std::atomic<int> asked_signal = 0;  // the handler may run on any thread
+static_assert(std::atomic<int>::is_always_lock_free, "or a handler may not touch it");
 volatile std::sig_atomic_t crash_file = -1;
 
 void note(int signal) {
@@ -77,8 +79,7 @@ VirtualTerminal::~VirtualTerminal() {
 }
 
 Terminal::Request VirtualTerminal::take_request() {
-  const int signal = asked_signal;
-  asked_signal = 0;
+  const int signal = asked_signal.exchange(0);
   if (signal == kLeaveSignal) return Request::Leave;
   if (signal == kReturnSignal) return Request::Return;
   return Request::None;

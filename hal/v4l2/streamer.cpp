@@ -49,6 +49,9 @@ std::optional<std::string> Streamer::start(std::int64_t now_ns) {
 }
 
 void Streamer::stop() {
+  // A camera keeps what was set in it, and whoever has it next would take that for its own.
+  if (ring_ && hold_.holds()) say_faults(hold_.free(*connection_.device));
+  hold_done_.reset();
   newest_.reset();
   ring_.reset();
   recovery_.stopped();

@@ -61,21 +61,37 @@ TEST_F(LastGood, IfNeitherWillDoTheLatterIsSaid) {
 }
 
 TEST_F(LastGood, AreACopyOfWhatWorked) {
-  const config::Sources box = sources(settings("9"));
-  keep_last_good(*box.file, good_);
+  const OpenBox box = open_box(sources(settings("9")), good_);
+  sources("changed [[ meanwhile");
+  keep_last_good(box.settings, good_);
   EXPECT_EQ(testing::read_text(good_), settings("9"));
   const auto written = std::filesystem::last_write_time(good_);
-  keep_last_good(*box.file, good_);
+  keep_last_good(box.settings, good_);
   EXPECT_EQ(std::filesystem::last_write_time(good_), written) << "not written without need";
-  sources(settings("11"));
-  keep_last_good(*box.file, good_);
+  keep_last_good(settings("11"), good_);
   EXPECT_EQ(testing::read_text(good_), settings("11"));
 }
 
+TEST_F(LastGood, AreNotKeptOverADeviceAFolderOrALink) {
+  const std::filesystem::path link = recording_.dir() / "link";
+  std::filesystem::create_symlink(good_, link);
+  recording_.dir().write("good.toml", settings("7"));
+  for (const auto& place : {std::filesystem::path("/dev/null"), recording_.folder(), link}) {
+    EXPECT_THAT(testing::message_of([&] { check_last_good(place); }), HasSubstr(place.string()));
+  }
+  EXPECT_NO_THROW(check_last_good(good_));
+  EXPECT_NO_THROW(check_last_good(recording_.dir() / "new.toml"));
+}
+
+TEST_F(LastGood, AreNotKeptInACapture) {
+  recording_.dir().write("transforms.json", R"({"frames": [], "lumibox": {"version": 1}})");
+  EXPECT_NE(testing::message_of([&] { check_last_good(recording_.dir() / "transforms.json"); }),
+            "");
+}
+
 TEST_F(LastGood, ThatCannotBeKeptAreAWarning) {
-  const config::Sources box = sources(settings("9"));
   ::testing::internal::CaptureStdout();
-  keep_last_good(*box.file, "/nowhere/good.toml");
+  keep_last_good(settings("9"), "/nowhere/good.toml");
   EXPECT_THAT(::testing::internal::GetCapturedStdout(), HasSubstr("/nowhere/good.toml"));
 }
 

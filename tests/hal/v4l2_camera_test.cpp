@@ -405,6 +405,23 @@ TEST_F(V4l2CameraTest, HoldsExposureFromTheNextFrameOnAndAfterItWasLost) {
   EXPECT_EQ(value(V4L2_CID_FOCUS_AUTO), 1);
 }
 
+// What is set in a webcam stays there until its power goes: the next program would find it so.
+TEST_F(V4l2CameraTest, LeavesTheCameraAsItFoundIt) {
+  start();
+  ASSERT_TRUE(step());
+  camera_->lock_exposure(true);
+  step();
+  ASSERT_EQ(value(V4L2_CID_FOCUS_AUTO), 0);
+  camera_->stop();
+  EXPECT_EQ(value(V4L2_CID_FOCUS_AUTO), 1);
+  camera_->start();
+  ASSERT_TRUE(step());
+  step();
+  EXPECT_EQ(value(V4L2_CID_FOCUS_AUTO), 0) << "still wanted";
+  camera_.reset();
+  EXPECT_EQ(value(V4L2_CID_FOCUS_AUTO), 1);
+}
+
 TEST_F(V4l2CameraTest, AnExposureFreedWhileTheCameraIsGoneIsFreedWhenItIsBack) {
   start();
   ASSERT_TRUE(step());

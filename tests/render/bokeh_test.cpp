@@ -5,11 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <string>
 
 #include "render/gl_test.h"
 #include "render/image_quality.h"
 #include "render/light.h"
 #include "render/ray_cast.h"
+#include "render/read_ahead.h"
+#include "support/photo.h"
+#include "support/temp_dir.h"
 
 namespace lumibox::render {
 namespace {
@@ -169,6 +173,34 @@ TEST_F(BokehTest, BitByBitItIsTheSame) {
   Settings settings = wide();
   settings.aperture_views = 9;
   EXPECT_EQ(draw(perspectives, settings, 7), draw(perspectives, settings));
+}
+
+// A view that was drawn of those pictures that were there by then would stay in the mean.
+TEST_F(BokehTest, WaitsForPicturesThatAreReadMeanwhile) {
+  const testing::TempDir dir;
+  const auto perspectives = capture(false);
+  Settings settings = wide();
+  settings.aperture_views = 3;
+  const hal::Image expected = draw(perspectives, settings);
+
+  std::vector<Perspective> stored = perspectives;
+  for (Perspective& p : stored) {
+    const auto photo = testing::photo_of(hal::Image(*p.photo->require_rgb()));
+    testing::store_as_png(*photo, dir / (std::to_string(p.id) + ".png"));
+    p.photo = photo;
+  }
+  ReadAhead ahead;
+  Renderer renderer({}, &ahead);
+  ProxyGeometry proxy({}, Estimating::AtOnce);
+  Bokeh bokeh(from_the_front(), stored, settings);
+  for (int draws = 0; draws < 1000 && !bokeh.is_complete(); ++draws) {
+    ASSERT_TRUE(bokeh.prepare(proxy));
+    bokeh.draw(renderer, *mean_, 50);
+    if (draws % 3 == 2) ahead.read_next();
+  }
+  ASSERT_TRUE(bokeh.is_complete());
+  mean_->draw(display_->framebuffer());
+  EXPECT_EQ(display_->read_back(), expected);
 }
 
 TEST_F(BokehTest, WithoutPerspectivesOrAPlaneInFocusThereIsNone) {
