@@ -1,9 +1,9 @@
 #include <cerrno>
 #include <cstdio>
-#include <system_error>
 
 #include "app/commands/command_line.h"
 #include "config/error.h"
+#include "config/error_text.h"
 #include "config/log.h"
 
 namespace {
@@ -13,7 +13,7 @@ void require_output_written() {
   errno = 0;
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     throw lumibox::config::InputError("standard output cannot be written: " +
-                                      std::generic_category().message(errno));
+                                      lumibox::config::error_text(errno));
   }
 }
 

@@ -2,8 +2,7 @@
 
 #include <systemd/sd-daemon.h>
 
-#include <system_error>
-
+#include "config/error_text.h"
 #include "config/log.h"
 
 namespace lumibox::app {
@@ -67,7 +66,7 @@ void Service::notify(const std::string& lines) {
   if (error <= 0) return;
   if (heard_) {
     config::log_warning("the service manager cannot be told how the box is: " +
-                        std::generic_category().message(error));
+                        config::error_text(error));
   }
   heard_ = false;
 }

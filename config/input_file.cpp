@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "config/error.h"
+#include "config/error_text.h"
 
 namespace lumibox::config {
 namespace {
@@ -32,7 +33,7 @@ Bytes read_all(const fs::path& file) {
   errno = 0;
   std::ifstream in(file, std::ios::binary);
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!in) throw InputError(file, "cannot be read: " + std::generic_category().message(errno));
+  if (!in) throw InputError(file, "cannot be read: " + error_text(errno));
   return bytes;
 }
 

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "config/error.h"
+#include "config/error_text.h"
 
 namespace lumibox::config {
 namespace {
@@ -17,7 +18,7 @@ struct CloseFile {
 };
 
 [[noreturn]] void fail(const fs::path& file, int error) {
-  throw InputError(file, "cannot be written: " + std::generic_category().message(error));
+  throw InputError(file, "cannot be written: " + error_text(error));
 }
 
 /// Not a device, and not what a link to it is called.

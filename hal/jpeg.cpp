@@ -6,20 +6,14 @@
 
 #include "config/error.h"
 #include "hal/image_codecs.h"
+#include "hal/owned.h"
 
 namespace lumibox::hal {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct DestroyHandle {
-  void operator()(void* handle) const { tjDestroy(handle); }
-};
-using Handle = std::unique_ptr<void, DestroyHandle>;
-
-struct FreeBuffer {
-  void operator()(unsigned char* buffer) const { tjFree(buffer); }
-};
+using Handle = std::unique_ptr<void, Freed<tjDestroy>>;
 
 [[noreturn]] void throw_damaged(const Handle& handle, const fs::path& name) {
   throw config::InputError(name, std::string("damaged JPEG: ") + tjGetErrorStr2(handle.get()));
@@ -76,7 +70,7 @@ std::vector<std::uint8_t> encode_jpeg(const Image& image, int quality) {
       tjCompress2(handle.get(), image.data(), image.width(), static_cast<int>(image.stride()),
                   image.height(), gray ? TJPF_GRAY : TJPF_RGB, &buffer, &size,
                   gray ? TJSAMP_GRAY : TJSAMP_420, quality, TJFLAG_ACCURATEDCT);
-  const std::unique_ptr<unsigned char, FreeBuffer> owner(buffer);
+  const std::unique_ptr<unsigned char, Freed<tjFree>> owner(buffer);
   if (status != 0) {
     throw std::invalid_argument(std::string("encode_jpeg: ") + tjGetErrorStr2(handle.get()));
   }

@@ -6,10 +6,10 @@
 
 #include <cerrno>
 #include <cstdint>
-#include <cstring>
 #include <string>
 
 #include "config/error.h"
+#include "config/error_text.h"
 
 namespace lumibox::hal {
 namespace {
@@ -18,14 +18,10 @@ constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
 }  // namespace
 
-SystemClock::SystemClock() : timer_fd_(timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC)) {
-  if (timer_fd_ < 0) {
-    throw config::InputError(std::string("timerfd: ") + std::strerror(errno));
+SystemClock::SystemClock() : timer_(timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC)) {
+  if (timer_.descriptor() < 0) {
+    throw config::InputError("timerfd: " + config::error_text(errno));
   }
-}
-
-SystemClock::~SystemClock() {
-  close(timer_fd_);
 }
 
 std::int64_t SystemClock::now_ns() const {
@@ -41,9 +37,9 @@ void SystemClock::wait_until(std::int64_t deadline_ns) {
   itimerspec timer{};
   timer.it_value.tv_sec = deadline_ns / kNsPerSecond;
   timer.it_value.tv_nsec = deadline_ns % kNsPerSecond;
-  timerfd_settime(timer_fd_, TFD_TIMER_ABSTIME, &timer, nullptr);
+  timerfd_settime(timer_.descriptor(), TFD_TIMER_ABSTIME, &timer, nullptr);
   std::uint64_t expirations = 0;
-  while (read(timer_fd_, &expirations, sizeof expirations) < 0 && errno == EINTR) {
+  while (read(timer_.descriptor(), &expirations, sizeof expirations) < 0 && errno == EINTR) {
   }
 }
 

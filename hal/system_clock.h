@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hal/clock.h"
+#include "hal/owned.h"
 
 namespace lumibox::hal {
 
@@ -8,15 +9,12 @@ namespace lumibox::hal {
 class SystemClock : public Clock {
  public:
   SystemClock();  ///< throws config::InputError if the kernel gives no timer
-  ~SystemClock() override;
-  SystemClock(const SystemClock&) = delete;
-  SystemClock& operator=(const SystemClock&) = delete;
 
   std::int64_t now_ns() const override;
   void wait_until(std::int64_t deadline_ns) override;
 
  private:
-  int timer_fd_ = -1;
+  File timer_;
 };
 
 }  // namespace lumibox::hal

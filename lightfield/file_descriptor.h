@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "hal/owned.h"
+
 namespace lumibox::lightfield {
 
 /// Throws config::InputError with the path, `what` and the system's words for `error`.
@@ -13,14 +15,11 @@ class FileDescriptor {
  public:
   /// As open(2). Throws config::InputError if that fails, which calls the file `name`.
   FileDescriptor(const std::filesystem::path& path, int flags, const std::filesystem::path& name);
-  ~FileDescriptor();
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
 
-  int get() const { return value_; }
+  int get() const { return file_.descriptor(); }
 
  private:
-  int value_;
+  hal::File file_;
 };
 
 }  // namespace lumibox::lightfield

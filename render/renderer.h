@@ -17,9 +17,9 @@ struct Rows {
   int count = 0;
 };
 
-/// The light field renderer on OpenGL ES 3: one full-screen pass over a texture array with a
-/// homography per layer. All calls need the same current context, the destructor included. A GPU
-/// that cannot hold the pictures or compile the shaders throws config::InputError.
+/// The light field renderer on OpenGL ES 3: all layers of a pixel in one shader, from a texture
+/// array, with a homography per layer. All calls need the same current context, the destructor
+/// included. A GPU that cannot hold the pictures or compile the shaders throws config::InputError.
 class Renderer {
  public:
   /// With somebody who reads `ahead`, who must outlive this, no draw waits for more than a handful

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "config/error.h"
+#include "config/error_text.h"
 #include "config/log.h"
 #include "config/output_file.h"
 #include "lightfield/transforms.h"
@@ -25,7 +26,7 @@ void require_writable(const std::filesystem::path& file) {
   const bool is_there = std::filesystem::exists(file, ignored);
   errno = 0;
   if (!std::ofstream(file, std::ios::app)) {
-    throw config::InputError(file, "cannot be written: " + std::generic_category().message(errno));
+    throw config::InputError(file, "cannot be written: " + config::error_text(errno));
   }
   if (!is_there) {
     std::filesystem::remove(file, ignored);

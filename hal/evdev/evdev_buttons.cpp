@@ -8,6 +8,7 @@
 
 #include "config/error.h"
 #include "config/log.h"
+#include "hal/device_files.h"
 
 namespace lumibox::hal {
 namespace {
@@ -104,16 +105,7 @@ std::vector<std::filesystem::path> EvdevButtons::candidates() const {
   if (wants_path()) {
     return {wanted_};
   }
-  std::vector<std::filesystem::path> paths;
-  std::error_code error;  // the folder is there only while there are devices
-  for (std::filesystem::directory_iterator entry(folder_, error), end; !error && entry != end;
-       entry.increment(error)) {
-    if (entry->path().filename().string().starts_with("event")) {
-      paths.push_back(entry->path());
-    }
-  }
-  std::ranges::sort(paths);
-  return paths;
+  return device_files(folder_, "event");
 }
 
 std::optional<EvdevButtons::Identity> EvdevButtons::identity_of(const std::filesystem::path& path) {

@@ -7,7 +7,8 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
+
+#include "config/error_text.h"
 
 namespace lumibox::hal {
 namespace {
@@ -27,7 +28,7 @@ std::string refusal(const std::filesystem::path& path, int error) {
   if (error == EBUSY) {
     return path.string() + ": another program has it for itself; expected a free device";
   }
-  return path.string() + ": " + std::strerror(error) + "; expected an input device";
+  return path.string() + ": " + config::error_text(error) + "; expected an input device";
 }
 
 }  // namespace
@@ -38,11 +39,12 @@ void EvdevDevice::Free::operator()(libevdev* device) const {
 
 EvdevDevice::Opened EvdevDevice::open(const std::filesystem::path& path, const EvdevTerms& terms,
                                       std::int64_t now_ns) {
-  const int fd = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  File file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  const int fd = file.descriptor();
   if (fd < 0) {
     return {nullptr, refusal(path, errno)};
   }
-  std::unique_ptr<EvdevDevice> opened(new EvdevDevice(fd, terms));
+  std::unique_ptr<EvdevDevice> opened(new EvdevDevice(std::move(file), terms));
   libevdev* const device = opened->device_.get();
   if (const int error = -libevdev_set_fd(device, fd); error != 0) {
     return {nullptr, refusal(path, error)};
@@ -63,12 +65,8 @@ EvdevDevice::Opened EvdevDevice::open(const std::filesystem::path& path, const E
   return {std::move(opened), {}};
 }
 
-EvdevDevice::EvdevDevice(int fd, const EvdevTerms& terms)
-    : fd_(fd), device_(libevdev_new()), keys_(terms.keys), guard_(terms.stuck_s) {}
-
-EvdevDevice::~EvdevDevice() {
-  close(fd_);
-}
+EvdevDevice::EvdevDevice(File file, const EvdevTerms& terms)
+    : file_(std::move(file)), device_(libevdev_new()), keys_(terms.keys), guard_(terms.stuck_s) {}
 
 std::string EvdevDevice::name() const {
   return libevdev_get_name(device_.get());

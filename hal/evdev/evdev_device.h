@@ -10,6 +10,7 @@
 
 #include "hal/evdev/key_map.h"
 #include "hal/hold_guard.h"
+#include "hal/owned.h"
 
 struct libevdev;
 
@@ -35,10 +36,6 @@ class EvdevDevice {
   static Opened open(const std::filesystem::path& path, const EvdevTerms& terms,
                      std::int64_t now_ns);
 
-  ~EvdevDevice();
-  EvdevDevice(const EvdevDevice&) = delete;
-  EvdevDevice& operator=(const EvdevDevice&) = delete;
-
   std::string name() const;
 
   /// Edges since the last call, oldest first; those of each button alternate. When the device has
@@ -53,7 +50,7 @@ class EvdevDevice {
     void operator()(libevdev* device) const;
   };
 
-  EvdevDevice(int fd, const EvdevTerms& terms);
+  EvdevDevice(File file, const EvdevTerms& terms);
 
   /// Finds out which keys are down before anybody has pressed them here.
   void begin(std::int64_t now_ns);
@@ -61,7 +58,7 @@ class EvdevDevice {
   void take(unsigned code, int value, std::int64_t time_ns, std::vector<ButtonEvent>& edges);
   bool is_down(Button button) const;
 
-  int fd_;
+  File file_;
   std::unique_ptr<libevdev, Free> device_;
   KeyMap keys_;
   std::set<unsigned> held_;  ///< keys

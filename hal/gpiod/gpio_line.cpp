@@ -2,7 +2,8 @@
 
 #include <cerrno>
 #include <charconv>
-#include <cstring>
+
+#include "config/error_text.h"
 
 namespace lumibox::hal {
 namespace {
@@ -38,7 +39,7 @@ config::InputError no_such_chip(const LineRequest& request, int error) {
   if (is_denied(error)) {
     return refusal(request, kNoPermission);
   }
-  return refusal(request, "no such chip (" + std::string(std::strerror(error)) +
+  return refusal(request, "no such chip (" + config::error_text(error) +
                               "); expected CHIP:OFFSET with a chip as gpiodetect lists it");
 }
 
@@ -46,7 +47,7 @@ config::InputError no_such_line(const LineRequest& request, int error) {
   if (is_denied(error)) {
     return refusal(request, kNoPermission);
   }
-  return refusal(request, "not on any chip (" + std::string(std::strerror(error)) +
+  return refusal(request, "not on any chip (" + config::error_text(error) +
                               "); expected a name, or CHIP:OFFSET, as gpioinfo lists it");
 }
 
@@ -56,7 +57,7 @@ config::InputError not_given(const LineRequest& request, int error, const char* 
     return refusal(request, "in use" + (known ? " by \"" + std::string(user) + "\"" : "") +
                                 "; expected a free line");
   }
-  return refusal(request, "refused by the kernel (" + std::string(std::strerror(error)) +
+  return refusal(request, "refused by the kernel (" + config::error_text(error) +
                               "); expected a line that tells edges, with the bias asked for");
 }
 

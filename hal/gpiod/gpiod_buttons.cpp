@@ -3,10 +3,10 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include "config/error.h"
+#include "config/error_text.h"
 #include "config/log.h"
 #include "hal/merged_buttons.h"
 
@@ -70,7 +70,7 @@ std::vector<ButtonEvent> GpiodButtons::poll() {
 void GpiodButtons::read(Switch& contact, std::vector<ButtonEvent>& edges) {
   const std::optional<LineReading> reading = contact.line->read();
   if (!reading) {
-    lose(contact, std::strerror(errno), edges);
+    lose(contact, config::error_text(errno), edges);
     return;
   }
   for (const LineEdge& edge : contact.debouncer.update(*reading, clock_.now_ns())) {
@@ -80,7 +80,7 @@ void GpiodButtons::read(Switch& contact, std::vector<ButtonEvent>& edges) {
 }
 
 /// Its chip was unplugged: nobody holds the button any more.
-void GpiodButtons::lose(Switch& contact, const char* why, std::vector<ButtonEvent>& edges) {
+void GpiodButtons::lose(Switch& contact, const std::string& why, std::vector<ButtonEvent>& edges) {
   contact.line.reset();
   const std::string what = "the line of " + name_of(contact.button) + " is gone";
   config::log_error(what + ": " + why);

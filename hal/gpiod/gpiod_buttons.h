@@ -33,7 +33,7 @@ class GpiodButtons : public Buttons {
 
   void add(Button button, const config::Gpio& options, const std::string& line);
   void read(Switch& contact, std::vector<ButtonEvent>& edges);
-  void lose(Switch& contact, const char* why, std::vector<ButtonEvent>& edges);
+  void lose(Switch& contact, const std::string& why, std::vector<ButtonEvent>& edges);
 
   const Clock& clock_;
   HoldGuard guard_;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "hal/gpiod/gpio_line.h"
+#include "hal/owned.h"
 
 namespace lumibox::hal {
 namespace {
@@ -20,12 +21,8 @@ constexpr unsigned kKeptEdges = 16;
 
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 
-struct CloseChip {
-  void operator()(gpiod_chip* chip) const { gpiod_chip_close(chip); }
-};
-
 struct OpenLine {
-  std::unique_ptr<gpiod_chip, CloseChip> chip;  ///< closing it releases the line
+  std::unique_ptr<gpiod_chip, Freed<gpiod_chip_close>> chip;  ///< closing it releases the line
   gpiod_line* line = nullptr;
 };
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "hal/gpiod/gpio_line.h"
+#include "hal/owned.h"
 
 namespace lumibox::hal {
 namespace {
@@ -20,12 +21,6 @@ constexpr std::size_t kKeptEdges = 64;
 
 /// The kernel numbers no more chips than these.
 constexpr int kMostChips = 256;
-
-/// Calls the function of the library that frees an object.
-template <auto free_object>
-struct Freed {
-  void operator()(auto* object) const { free_object(object); }
-};
 
 using Chip = std::unique_ptr<gpiod_chip, Freed<gpiod_chip_close>>;
 using ChipInfo = std::unique_ptr<gpiod_chip_info, Freed<gpiod_chip_info_free>>;

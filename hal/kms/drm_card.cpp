@@ -12,6 +12,8 @@
 #include <filesystem>
 #include <span>
 
+#include "hal/device_files.h"
+
 namespace lumibox::hal::kms {
 namespace {
 
@@ -51,16 +53,6 @@ std::string name_of(const drmModeConnector& connector) {
 template <typename Count>
 auto list_of(std::uint32_t* first, Count count) {
   return std::span<const std::uint32_t>(first, static_cast<std::size_t>(count));
-}
-
-std::vector<std::string> card_paths() {
-  std::vector<std::string> paths;
-  std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator("/dev/dri", none)) {
-    if (entry.path().filename().string().starts_with("card")) paths.push_back(entry.path());
-  }
-  std::ranges::sort(paths);
-  return paths;
 }
 
 }  // namespace
@@ -181,10 +173,11 @@ std::vector<std::uint32_t> DrmCard::formats(const Pipe& pipe) const {
 OpenCard open_card(const std::string& asked_for, const std::optional<ModeWish>& wish) {
   std::vector<CardFound> found;
   std::vector<std::unique_ptr<DrmCard>> cards;
-  for (const std::string& path : asked_for.empty() ? card_paths() : std::vector{asked_for}) {
+  const std::vector<std::filesystem::path> asked = {asked_for};
+  for (const auto& path : asked_for.empty() ? device_files("/dev/dri", "card") : asked) {
     File file(open(path.c_str(), O_RDWR | O_CLOEXEC));
     CardFound& card = found.emplace_back();
-    card.path = path;
+    card.path = path.string();
     card.error = file.descriptor() < 0 ? errno : 0;
     cards.emplace_back();
     if (card.error != 0) continue;

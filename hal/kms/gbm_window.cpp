@@ -9,10 +9,10 @@
 #include <array>
 #include <cerrno>
 #include <memory>
-#include <system_error>
 #include <vector>
 
 #include "config/error.h"
+#include "config/error_text.h"
 #include "hal/egl/egl_tools.h"
 #include "hal/kms/output.h"
 
@@ -29,8 +29,7 @@ constexpr std::array<std::uint32_t, 5> kFormats = {DRM_FORMAT_XRGB8888, DRM_FORM
 }
 
 [[noreturn]] void fail_with_errno(const std::string& step) {
-  throw config::InputError("display kms: " + step +
-                           " failed: " + std::generic_category().message(errno));
+  throw config::InputError("display kms: " + step + " failed: " + config::error_text(errno));
 }
 
 std::vector<EGLConfig> window_configs(EGLDisplay display) {

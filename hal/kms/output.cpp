@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <system_error>
 
 #include "config/error.h"
+#include "config/error_text.h"
 
 namespace lumibox::hal::kms {
 namespace {
@@ -24,7 +24,7 @@ std::string fault_of(const CardFound& card) {
     return "permission denied; expected a user in the groups video and render";
   }
   if (card.error != 0) {
-    return std::generic_category().message(card.error) + "; expected a graphics card";
+    return config::error_text(card.error) + "; expected a graphics card";
   }
   if (!card.sets_modes) return "drives no screens; expected a card that sets modes";
   if (first_usable(card.connectors) != nullptr) return {};

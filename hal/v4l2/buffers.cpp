@@ -39,11 +39,6 @@ bool is_whole_jpeg(std::span<const std::uint8_t> bytes) {
          bytes[size - 1] == 0xD9;
 }
 
-std::string refusal(const char* what, int error) {
-  const char* hint = error == EBUSY ? "; is another program using it?" : "";
-  return std::string(what) + ": " + error_text(error) + hint;
-}
-
 }  // namespace
 
 const char* to_string(Damage damage) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "config/error_text.h"
 #include "hal/v4l2/connect.h"
 #include "hal/v4l2/controls.h"
 #include "hal/v4l2/modes.h"
@@ -47,7 +48,7 @@ std::string describe_controls(const std::vector<v4l2::Control>& controls) {
 /// Empty of a node that is no camera.
 std::string describe(v4l2::VideoSystem& system, const v4l2::Node& node) {
   const v4l2::Opened opened = system.open(node.path);
-  if (!opened.device) return node.path + ": " + v4l2::error_text(opened.error) + "\n";
+  if (!opened.device) return node.path + ": " + config::error_text(opened.error) + "\n";
   const auto identity = v4l2::identify(*opened.device);
   if (!identity) return {};
   std::string text =

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "config/error_text.h"
+
 namespace lumibox::hal::v4l2 {
 namespace {
 
@@ -33,14 +35,18 @@ bool is_path(const std::string& name) {
 
 std::string open_error(const std::string& path, int error) {
   const char* hint = error == EACCES ? "; is the user in the group video?" : "";
-  return path + ": " + error_text(error) + hint;
+  return path + ": " + config::error_text(error) + hint;
+}
+
+std::set<std::pair<int, int>> sizes_in(const std::vector<Mode>& modes) {
+  std::set<std::pair<int, int>> sizes;
+  for (const Mode& mode : modes) sizes.emplace(mode.width, mode.height);
+  return sizes;
 }
 
 std::string sizes_of(const std::vector<Mode>& modes) {
-  std::set<std::pair<int, int>> sizes;
-  for (const Mode& mode : modes) sizes.emplace(mode.width, mode.height);
   std::string text;
-  for (const auto& [width, height] : sizes) {
+  for (const auto& [width, height] : sizes_in(modes)) {
     text += fmt::format("{}{}x{}", text.empty() ? "" : ", ", width, height);
   }
   return text;
@@ -56,8 +62,7 @@ std::string formats_of(const std::vector<Mode>& modes) {
 }
 
 std::string offer_of(const std::vector<Mode>& modes) {
-  std::set<std::pair<int, int>> sizes;
-  for (const Mode& mode : modes) sizes.emplace(mode.width, mode.height);
+  const std::set<std::pair<int, int>> sizes = sizes_in(modes);
   const auto largest = std::ranges::max(
       sizes, {}, [](const std::pair<int, int>& size) { return size.first * size.second; });
   return fmt::format("{} in {} size{} up to {}x{}", formats_of(modes), sizes.size(),

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "config/error_text.h"
 #include "hal/v4l2/modes.h"
 
 namespace lumibox::hal::v4l2 {
@@ -74,7 +75,7 @@ std::optional<std::string> set(VideoDevice& device, const Setting& setting) {
     const int error = device.ioctl(VIDIOC_S_CTRL, &control);
     const std::optional<std::int32_t> now = read(device, setting.id);
     if (error == 0 && now == setting.value) return std::nullopt;
-    reason = error != 0 ? error_text(error)
+    reason = error != 0 ? config::error_text(error)
              : now      ? fmt::format("it is {}", *now)
                         : "it cannot be read back";
   }

@@ -14,6 +14,8 @@
 #include <system_error>
 #include <utility>
 
+#include "hal/device_files.h"
+#include "hal/owned.h"
 #include "hal/v4l2/video_system.h"
 
 namespace lumibox::hal::v4l2 {
@@ -23,21 +25,18 @@ namespace fs = std::filesystem;
 
 class LinuxVideoDevice : public VideoDevice {
  public:
-  explicit LinuxVideoDevice(int fd) : fd_(fd) {}
-  ~LinuxVideoDevice() override { close(fd_); }
-  LinuxVideoDevice(const LinuxVideoDevice&) = delete;
-  LinuxVideoDevice& operator=(const LinuxVideoDevice&) = delete;
+  explicit LinuxVideoDevice(File file) : file_(std::move(file)) {}
 
   int ioctl(unsigned long request, void* argument) override {
     int status = 0;
     do {
-      status = ::ioctl(fd_, request, argument);
+      status = ::ioctl(poll_fd(), request, argument);
     } while (status < 0 && errno == EINTR);
     return status < 0 ? errno : 0;
   }
 
   std::span<std::uint8_t> map(std::size_t length, std::int64_t offset) override {
-    void* memory = mmap(nullptr, length, PROT_READ | PROT_WRITE, MAP_SHARED, fd_, offset);
+    void* memory = mmap(nullptr, length, PROT_READ | PROT_WRITE, MAP_SHARED, poll_fd(), offset);
     if (memory == MAP_FAILED) return {};
     return {static_cast<std::uint8_t*>(memory), length};
   }
@@ -45,14 +44,14 @@ class LinuxVideoDevice : public VideoDevice {
   void unmap(std::span<std::uint8_t> memory) override { munmap(memory.data(), memory.size()); }
 
   bool hung_up() override {
-    pollfd state{fd_, POLLIN, 0};
+    pollfd state{poll_fd(), POLLIN, 0};
     return poll(&state, 1, 0) > 0 && (state.revents & (POLLERR | POLLHUP | POLLNVAL)) != 0;
   }
 
-  int poll_fd() const override { return fd_; }
+  int poll_fd() const override { return file_.descriptor(); }
 
  private:
-  int fd_;
+  File file_;
 };
 
 /// Tells through udev that video devices come and go. Where udev does not run nothing is told.
@@ -90,9 +89,10 @@ class UdevWatch {
   int fd_ = -1;
 };
 
+constexpr std::string_view kPrefix = "video";
+
 /// 7 of "video7".
 std::optional<int> number_of_node(std::string_view name) {
-  constexpr std::string_view kPrefix = "video";
   if (!name.starts_with(kPrefix)) return std::nullopt;
   const char* const end = name.data() + name.size();
   int number = 0;
@@ -102,10 +102,9 @@ std::optional<int> number_of_node(std::string_view name) {
 
 /// The names that udev gives the nodes, which do not depend on the order of plugging.
 std::string stable_path_of(const fs::path& node) {
-  std::error_code error;
-  for (const auto& link : fs::directory_iterator("/dev/v4l/by-id", error)) {
+  for (const fs::path& link : device_files("/dev/v4l/by-id")) {
     std::error_code gone;
-    if (fs::equivalent(link.path(), node, gone)) return link.path().string();
+    if (fs::equivalent(link, node, gone)) return link.string();
   }
   return {};
 }
@@ -114,10 +113,9 @@ class LinuxVideoSystem : public VideoSystem {
  public:
   std::vector<Node> nodes() override {
     std::vector<std::pair<int, fs::path>> found;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator("/dev", error)) {
-      if (const auto number = number_of_node(entry.path().filename().string())) {
-        found.emplace_back(*number, entry.path());
+    for (const fs::path& path : device_files("/dev", kPrefix)) {
+      if (const auto number = number_of_node(path.filename().string())) {
+        found.emplace_back(*number, path);
       }
     }
     std::ranges::sort(found);
@@ -127,9 +125,9 @@ class LinuxVideoSystem : public VideoSystem {
   }
 
   Opened open(const std::string& path) override {
-    const int fd = ::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
-    if (fd < 0) return {nullptr, errno};
-    return {std::make_unique<LinuxVideoDevice>(fd), 0};
+    File file(::open(path.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC));
+    if (file.descriptor() < 0) return {nullptr, errno};
+    return {std::make_unique<LinuxVideoDevice>(std::move(file)), 0};
   }
 
   bool changed() override { return watch_.changed(); }

@@ -7,9 +7,10 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
-#include <system_error>
 #include <tuple>
 #include <utility>
+
+#include "config/error_text.h"
 
 namespace lumibox::hal::v4l2 {
 namespace {
@@ -214,8 +215,7 @@ std::variant<Layout, std::string> set_mode(VideoDevice& device, const Mode& mode
   pix.pixelformat = row_of(mode.format).fourcc;
   pix.field = V4L2_FIELD_NONE;
   if (const int error = device.ioctl(VIDIOC_S_FMT, &format); error != 0) {
-    const char* hint = error == EBUSY ? "; is another program using it?" : "";
-    return fmt::format("refuses {}: {}{}", to_string(mode), error_text(error), hint);
+    return refusal("refuses " + to_string(mode), error);
   }
   if (format_of(pix.pixelformat) != mode.format || static_cast<int>(pix.width) != mode.width ||
       static_cast<int>(pix.height) != mode.height) {
@@ -229,8 +229,9 @@ std::variant<Layout, std::string> set_mode(VideoDevice& device, const Mode& mode
   return layout;
 }
 
-std::string error_text(int error) {
-  return std::generic_category().message(error);
+std::string refusal(const std::string& what, int error) {
+  const char* hint = error == EBUSY ? "; is another program using it?" : "";
+  return what + ": " + config::error_text(error) + hint;
 }
 
 }  // namespace lumibox::hal::v4l2

@@ -66,7 +66,7 @@ struct Layout {
 /// size or format; another rate is taken as it is.
 std::variant<Layout, std::string> set_mode(VideoDevice& device, const Mode& mode);
 
-/// "Device or resource busy"
-std::string error_text(int error);
+/// "<what>: <why>" of a camera that refused, and what may help.
+std::string refusal(const std::string& what, int error);
 
 }  // namespace lumibox::hal::v4l2

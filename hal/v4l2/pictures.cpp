@@ -10,13 +10,12 @@
 #include <string_view>
 #include <utility>
 
+#include "hal/owned.h"
+
 namespace lumibox::hal::v4l2 {
 namespace {
 
-struct DestroyHandle {
-  void operator()(void* handle) const { tjDestroy(handle); }
-};
-using Handle = std::unique_ptr<void, DestroyHandle>;
+using Handle = std::unique_ptr<void, Freed<tjDestroy>>;
 
 /// A picture as JPEG has it: luma and two chroma planes that may be coarser, all of full range.
 struct Planes {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "config/error_text.h"
 #include "config/log.h"
 
 namespace lumibox::hal::v4l2 {
@@ -107,10 +108,10 @@ void Streamer::drain(std::int64_t now_ns) {
   while (ring_ && (error = ring_->take(filled)) == 0) {
     if (accept(filled, now_ns)) continue;
     if (const int refused = ring_->give_back(filled); refused != 0) {
-      return lose("it takes no buffers: " + error_text(refused), now_ns);
+      return lose("it takes no buffers: " + config::error_text(refused), now_ns);
     }
   }
-  if (error != EAGAIN) return lose(error_text(error), now_ns);
+  if (error != EAGAIN) return lose(config::error_text(error), now_ns);
   const bool any = newest_.has_value();
   hand_over(now_ns);
   if (ring_ && !any && connection_.device->hung_up()) lose("it hung up", now_ns);
@@ -156,7 +157,7 @@ void Streamer::hand_over(std::int64_t now_ns) {
     state_ = CameraState::Streaming;
   }
   if (const int refused = ring_->give_back(newest.filled); refused != 0) {
-    lose("it takes no buffers: " + error_text(refused), now_ns);
+    lose("it takes no buffers: " + config::error_text(refused), now_ns);
   }
 }
 

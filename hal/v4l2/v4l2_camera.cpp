@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 #include <poll.h>
 #include <sys/eventfd.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -15,7 +14,9 @@
 #include <utility>
 
 #include "config/error.h"
+#include "config/error_text.h"
 #include "config/log.h"
+#include "hal/owned.h"
 #include "hal/v4l2/frame_slot.h"
 #include "hal/v4l2/streamer.h"
 
@@ -100,22 +101,19 @@ v4l2::StreamSettings settings_of(const V4l2Options& options) {
 /// Wakes a thread that polls it.
 class WakeUp {
  public:
-  WakeUp() : fd_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
-    if (fd_ < 0) throw config::InputError("eventfd: " + v4l2::error_text(errno));
+  WakeUp() : file_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
+    if (fd() < 0) throw config::InputError("eventfd: " + config::error_text(errno));
   }
-  ~WakeUp() { close(fd_); }
-  WakeUp(const WakeUp&) = delete;
-  WakeUp& operator=(const WakeUp&) = delete;
 
-  int fd() const { return fd_; }
-  void ring() { eventfd_write(fd_, 1); }
+  int fd() const { return file_.descriptor(); }
+  void ring() { eventfd_write(fd(), 1); }
   void clear() {
     eventfd_t count = 0;
-    eventfd_read(fd_, &count);
+    eventfd_read(fd(), &count);
   }
 
  private:
-  int fd_;
+  File file_;
 };
 
 }  // namespace

@@ -1,10 +1,10 @@
-// The light field of thesis 3 in one pass: at each pixel a loop over the layers, nearest first.
+// The light field of thesis 3: at each pixel a loop over the layers, nearest first.
 // SMALL_APERTURE blends "over" from the front and stops where nothing behind can be seen any more;
 // otherwise the layers' weighted mean. SHAPE where pictures are projected onto the scene's shape
 // instead of planes; DISTORTION where any source has a lens that distorts; HORIZON where something
 // that a ray meets may lie behind the view or a source; ONE_CAMERA where all sources have the same
-// camera; TILES where each tile of the view has a list of the layers that show something there.
-// What is not needed is not loaded: on a software GPU loads are a third of the time.
+// camera; TILES where each tile of the view has a list of the layers that show something there; NEAR where the
+// first of them come interpolated. What is not needed is not loaded: on a software GPU loads take their time.
 
 uniform int layer_count;
 uniform vec2 middle;               // of the view, as gl_FragCoord
@@ -71,10 +71,21 @@ float visibility_by(float map, vec3 source, float inverse_depth) {
 }
 #endif
 
-// Of the picture at hand, towards its border.
-float fade_at(vec2 pixel) {
+// The pixel that a source lies at, in the picture at hand, and how much of its weight is left there: less towards
+// the border, and nothing beyond the lens' fold.
+float share_at(vec3 source, out vec2 pixel) {
+  pixel = source.xy / source.z;
+#ifdef DISTORTION
+  bool folded = dot(pixel, pixel) >= lens.y;
+  pixel = pixel_of(pixel, intrinsics, distortion, lens.x, lens.z > 0.5);
+#elif defined(SHAPE)
+  pixel = intrinsics.xy * pixel + intrinsics.zw;
+#endif
   vec2 fade = clamp(min(pixel, picture.xy - pixel) * picture.z, 0.0, 1.0);
   fade = fade * fade * (3.0 - 2.0 * fade);
+#ifdef DISTORTION
+  if (folded) return 0.0;
+#endif
   return fade.x * fade.y;
 }
 
@@ -89,17 +100,7 @@ float seen(int i, vec2 place, float inverse_depth, out vec2 pixel, out float nea
   source += inverse_depth * layers[i].beyond.xyz;
   near = closeness(ray_of_view, source) * visibility_by(layers[i].beyond.w, source, inverse_depth);
 #endif
-  pixel = source.xy / source.z;
-#ifdef DISTORTION
-  bool folded = dot(pixel, pixel) >= lens.y;
-  pixel = pixel_of(pixel, intrinsics, distortion, lens.x, lens.z > 0.5);
-#elif defined(SHAPE)
-  pixel = intrinsics.xy * pixel + intrinsics.zw;
-#endif
-  float weight = layers[i].from_y.w * fade_at(pixel);
-#ifdef DISTORTION
-  if (folded) weight = 0.0;
-#endif
+  float weight = layers[i].from_y.w * share_at(source, pixel);
 #ifdef HORIZON
   if (source.z <= 0.0) weight = 0.0;
 #ifndef SHAPE
@@ -130,13 +131,9 @@ void put_behind(float weight, vec3 light) {
 
 #ifdef NEAR
 void put_near_behind(vec4 source, vec2 weight_and_gain) {
-  vec2 pixel = source.xy / source.z;
-  float weight = weight_and_gain.x;
-#ifdef DISTORTION
-  if (dot(pixel, pixel) >= lens.y) weight = 0.0;
-  pixel = pixel_of(pixel, intrinsics, distortion, lens.x, lens.z > 0.5);
-#endif
-  put_behind(weight * fade_at(pixel), weight_and_gain.y * light_at(source.w, pixel));
+  vec2 pixel;
+  float weight = weight_and_gain.x * share_at(source.xyz, pixel);
+  put_behind(weight, weight_and_gain.y * light_at(source.w, pixel));
 }
 #endif
 
