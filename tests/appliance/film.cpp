@@ -1,5 +1,5 @@
-// Makes a film for a webcam (guest/feed.cpp) of a recording: every STEPth of its pictures in YUYV, one
-// after the other.
+// Makes a film for a webcam (guest/feed.cpp) of a recording: every STEPth of its pictures in YUYV,
+// one after the other.
 //
 //   film SEQUENCE STEP FILM
 #include <algorithm>

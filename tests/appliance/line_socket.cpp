@@ -28,7 +28,9 @@ LineSocket::LineSocket(const std::filesystem::path& socket)
   }
 }
 
-LineSocket::~LineSocket() { ::close(socket_); }
+LineSocket::~LineSocket() {
+  ::close(socket_);
+}
 
 void LineSocket::write(const std::string& text) {
   for (std::size_t sent = 0; sent < text.size();) {

@@ -34,12 +34,33 @@ std::vector<std::string> command_line(const VirtualMachine::Settings& settings) 
   };
   // What the guest has brought to its disk is on ours, whatever becomes of QEMU.
   std::vector<std::string> line = {
-      "qemu-system-x86_64", "-machine", "q35", "-accel", "tcg,thread=multi", "-smp", "2", "-m",
-      "2048", "-cpu", "qemu64", "-nodefaults", "-display", "none", "-device",
-      "virtio-gpu-pci,xres=640,yres=480", "-device", "virtio-keyboard-pci", "-device",
-      "virtio-rng-pci", "-drive", drive(settings.disk, "cache=writethrough"), "-serial",
-      "file:" + (settings.scratch / "console.log").string(), "-serial",
-      "unix:" + (settings.scratch / "shell").string() + ",server=on,wait=off", "-qmp",
+      "qemu-system-x86_64",
+      "-machine",
+      "q35",
+      "-accel",
+      "tcg,thread=multi",
+      "-smp",
+      "2",
+      "-m",
+      "2048",
+      "-cpu",
+      "qemu64",
+      "-nodefaults",
+      "-display",
+      "none",
+      "-device",
+      "virtio-gpu-pci,xres=640,yres=480",
+      "-device",
+      "virtio-keyboard-pci",
+      "-device",
+      "virtio-rng-pci",
+      "-drive",
+      drive(settings.disk, "cache=writethrough"),
+      "-serial",
+      "file:" + (settings.scratch / "console.log").string(),
+      "-serial",
+      "unix:" + (settings.scratch / "shell").string() + ",server=on,wait=off",
+      "-qmp",
       "unix:" + (settings.scratch / "qmp").string() + ",server=on,wait=off"};
   if (settings.start == VirtualMachine::Start::Firmware) {
     line.insert(line.end(), {"-bios", "/usr/share/ovmf/OVMF.fd"});
@@ -83,9 +104,12 @@ VirtualMachine::VirtualMachine(const Settings& settings) : settings_(settings) {
   if (settings.start == Start::Kernel) open_shell();
 }
 
-VirtualMachine::~VirtualMachine() { cut_power(); }
+VirtualMachine::~VirtualMachine() {
+  cut_power();
+}
 
-/// Until the shell is there nobody listens at the serial line, and what is said is lost or comes late.
+/// Until the shell is there nobody listens at the serial line, and what is said is lost or comes
+/// late.
 void VirtualMachine::open_shell() {
   shell_ = std::make_unique<LineSocket>(settings_.scratch / "shell");
   const auto end = std::chrono::steady_clock::now() + kPatience;
@@ -106,7 +130,8 @@ void VirtualMachine::open_shell() {
 
 CommandResult VirtualMachine::run(const std::string& command) {
   const std::string end = "@@" + std::to_string(++commands_) + " ";
-  shell_->write("{ " + command + "\n} </dev/null 2>&1; echo; echo \"" + end + "$?\"\n");
+  shell_->write("{ " + command + "\n} </dev/null 2>&1; status=$?; echo; echo \"" + end +
+                "$status\"\n");
   CommandResult result;
   for (;;) {
     const std::string line = shell_->read_line();

@@ -24,11 +24,12 @@ class VirtualMachine {
  public:
   enum class Start {
     Kernel,    ///< QEMU starts the kernel, with a root's shell on a serial line
-    Firmware,  ///< UEFI starts what it finds on the disk: nothing but the screen is to be seen of it
+    Firmware,  ///< UEFI starts what it finds on the disk: nothing but the screen is to be seen of
+               ///< it
   };
   struct Settings {
-    std::filesystem::path image;  ///< folder that make-image and make-tools have filled
-    std::filesystem::path disk;   ///< written to
+    std::filesystem::path image;    ///< folder that make-image and make-tools have filled
+    std::filesystem::path disk;     ///< written to
     std::filesystem::path scratch;  ///< sockets and console.log
     Start start = Start::Kernel;
     std::string more_parameters;  ///< of the kernel

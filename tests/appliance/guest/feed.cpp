@@ -1,5 +1,5 @@
-// Plays a film (film.cpp) into a v4l2loopback device, over and over, forwards and backwards, so that
-// the camera never jumps. Runs in the guest.
+// Plays a film (film.cpp) into a v4l2loopback device, over and over, forwards and backwards, so
+// that the camera never jumps. Runs in the guest.
 //
 //   feed FILM WIDTH HEIGHT HZ DEVICE
 #include <fcntl.h>

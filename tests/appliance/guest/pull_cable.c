@@ -1,5 +1,5 @@
-// Pulls the cable of a webcam: takes a video device away while programs have it open, as a USB driver
-// does when its camera goes. insmod pull_cable.ko device=/dev/video0
+// Pulls the cable of a webcam: takes a video device away while programs have it open, as a USB
+// driver does when its camera goes. insmod pull_cable.ko device=/dev/video0
 #include <linux/fs.h>
 #include <linux/module.h>
 #include <media/v4l2-dev.h>

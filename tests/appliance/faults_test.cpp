@@ -1,0 +1,86 @@
+#include <gtest/gtest.h>
+
+#include "appliance/box.h"
+
+// What goes wrong with a box in the hand, made to happen: each begins in the middle of a capture,
+// and ends with more views than there were.
+namespace lumibox::testing {
+namespace {
+
+class Faults : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    box_ = std::make_unique<Box>("faults");
+    box_->get_devices();
+    box_->wait_until_ready();
+    box_->expect_status("aim at the subject");
+    box_->press(Line::Main);
+    box_->expect_status("the sphere is placed");
+    box_->press(Line::Main);
+    box_->expect_views(2);
+  }
+  static void TearDownTestSuite() { box_.reset(); }
+
+  void SetUp() override { ASSERT_GE(box().views(), 2) << "there is no capture to disturb"; }
+
+  static Box& box() { return *box_; }
+  static VirtualMachine& guest() { return box_->machine(); }
+  /// Recording goes on, into the same capture.
+  static void expect_that_it_goes_on(int views_before) {
+    box().expect_views(views_before + 1);
+    EXPECT_EQ(guest().output("ls /var/lib/lumibox/captures | wc -l"), "1");
+  }
+  static int restarts() {
+    return std::stoi(guest().output("systemctl show --property=NRestarts --value lumibox"));
+  }
+
+ private:
+  static std::unique_ptr<Box> box_;
+};
+std::unique_ptr<Box> Faults::box_;
+
+TEST_F(Faults, TheFeederStallsAndGoesOn) {
+  const int views = box().views(), before = restarts();
+  guest().output("systemctl kill --signal=STOP webcam0");
+  box().expect_status("camera");
+  box().look("fault-1-webcam-stalled");
+  guest().output("systemctl kill --signal=CONT webcam0");
+  expect_that_it_goes_on(views);
+  EXPECT_EQ(restarts(), before);
+}
+
+TEST_F(Faults, TheWebcamIsUnpluggedAndComesBack) {
+  const int views = box().views(), before = restarts();
+  guest().output("insmod /run/tools/pull_cable.ko device=/dev/video20");
+  box().expect_status("camera");
+  EXPECT_FALSE(guest().output("ls /dev").find("video20") != std::string::npos);
+  box().look("fault-2-webcam-unplugged");
+  box().play(1);
+  expect_that_it_goes_on(views);
+  EXPECT_EQ(restarts(), before);
+}
+
+TEST_F(Faults, TheServiceIsKilled) {
+  const int views = box().views(), before = restarts();
+  guest().output("systemctl kill --signal=KILL lumibox");
+  EXPECT_TRUE(guest().becomes_true("[ $(systemctl show --property=NRestarts --value lumibox) -gt " +
+                                   std::to_string(before) + " ]"));
+  box().wait_until_ready();
+  box().look("fault-3-after-a-kill");
+  EXPECT_GE(box().views(), views);
+  expect_that_it_goes_on(views);
+}
+
+TEST_F(Faults, TheServiceHangs) {
+  const int views = box().views(), before = restarts();
+  guest().output("systemctl kill --signal=STOP lumibox");
+  EXPECT_TRUE(guest().becomes_true("[ $(systemctl show --property=NRestarts --value lumibox) -gt " +
+                                   std::to_string(before) + " ]"));
+  EXPECT_EQ(guest().run("journalctl -b -u lumibox | grep -qi watchdog").status, 0);
+  box().wait_until_ready();
+  EXPECT_GE(box().views(), views);
+  expect_that_it_goes_on(views);
+}
+
+}  // namespace
+}  // namespace lumibox::testing
