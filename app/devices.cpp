@@ -222,13 +222,40 @@ Devices open_devices(const config::Config& config) {
   Devices devices;
   devices.clock = open_clock(options.clock);
   devices.lockstep = options.clock == "virtual";
-  devices.camera = open_camera(config, *devices.clock);
   devices.buttons = open_buttons(config, *devices.clock);
   devices.status_led = open_status_led(config);
-  devices.display = open_display(options.display, config.display, *devices.clock);
-  devices.display->make_current();
-  devices.camera->start();
+  const hal::Clock& clock = *devices.clock;
+  devices.open_camera = [config, &clock] { return open_camera(config, clock); };
+  devices.open_display = [config, &clock] {
+    auto display = open_display(config.devices.display, config.display, clock);
+    display->make_current();
+    return display;
+  };
+  open_missing(devices);
+  if (devices.lockstep && !devices.missing.empty()) throw config::Unavailable(devices.missing);
   return devices;
+}
+
+void open_missing(Devices& devices) {
+  devices.missing.clear();
+  const auto attempt = [&devices](const std::function<void()>& step) {
+    try {
+      step();
+    } catch (const config::Unavailable& fault) {
+      devices.missing += (devices.missing.empty() ? "" : "; ") + std::string(fault.what());
+    }
+  };
+  attempt([&] {
+    if (!devices.camera) devices.camera = devices.open_camera();
+  });
+  attempt([&] {
+    if (!devices.display) devices.display = devices.open_display();
+  });
+  if (!devices.missing.empty()) return;
+  attempt([&] {
+    if (devices.camera->state() == hal::CameraState::Stopped) devices.camera->start();
+  });
+  if (!devices.missing.empty()) devices.camera.reset();
 }
 
 }  // namespace lumibox::app

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <string>
 
 #include "config/config.h"
 #include "hal/buttons.h"
@@ -15,17 +17,25 @@ namespace lumibox::app {
 /// others refer to, goes last.
 struct Devices {
   std::unique_ptr<hal::Clock> clock;
-  std::unique_ptr<hal::Camera> camera;
+  std::unique_ptr<hal::Camera> camera;  ///< none, or not started, while anything is missing
   std::unique_ptr<hal::Buttons> buttons;
-  std::unique_ptr<hal::Display> display;
+  std::unique_ptr<hal::Display> display;       ///< none while it is missing
   std::unique_ptr<hal::StatusLed> status_led;  ///< none: the box has no lamp
-  bool lockstep = false;                       ///< time is virtual: nothing may run beside the loop
+  std::function<std::unique_ptr<hal::Camera>()> open_camera;
+  std::function<std::unique_ptr<hal::Display>()> open_display;
+  std::string missing;    ///< why there is no camera or screen; empty if there are both
+  bool lockstep = false;  ///< time is virtual: nothing may run beside the loop
 };
 
 /// The one place where backends are chosen. Opens what `config.devices` names (config.h lists the
-/// kinds),
-/// the camera started and the display's context current on this thread. Throws config::InputError
-/// that names the option, what it says and which kinds this build has.
+/// kinds), the camera started and the display's context current on this thread. Throws
+/// config::InputError that names the option, what it says and which kinds this build has. A camera
+/// or screen that is not there is `missing`; where time is virtual nothing can come, and it is
+/// thrown.
 Devices open_devices(const config::Config& config);
+
+/// Opens what is still missing, if it is there now. Throws config::InputError if what came cannot
+/// be used whoever waits.
+void open_missing(Devices& devices);
 
 }  // namespace lumibox::app

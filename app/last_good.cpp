@@ -20,22 +20,49 @@ OpenBox open_as_configured(const config::Sources& sources) {
   return {config, open_devices(config), std::move(settings), std::nullopt};
 }
 
+/// On the file `good` in place of that of `sources`, which is not used because of the problem.
+OpenBox open_on_last_good(config::Sources sources, const std::filesystem::path& good,
+                          const std::string& problem) {
+  config::log_error(problem + "; trying the last good settings, " + good.string());
+  sources.file = good;
+  OpenBox box = open_as_configured(sources);
+  box.problem = problem;
+  return box;
+}
+
+/// A device that is missing may be one that only the new settings name.
+std::optional<OpenBox> open_without_waiting(const config::Sources& sources,
+                                            const std::filesystem::path& good,
+                                            const std::string& problem) {
+  try {
+    OpenBox box = open_on_last_good(sources, good, problem);
+    if (box.devices.missing.empty()) return box;
+    config::log_error("the last good settings will not do either: " + box.devices.missing);
+  } catch (const config::InputError& error) {
+    config::log_error(std::string("the last good settings will not do either: ") + error.what());
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 OpenBox open_box(const config::Sources& sources,
                  const std::optional<std::filesystem::path>& last_good) {
+  const bool has_last_good = last_good && !config::fault_of_file(*last_good);
+  std::optional<OpenBox> box;
   try {
-    return open_as_configured(sources);
+    box.emplace(open_as_configured(sources));
   } catch (const config::InputError& error) {
-    if (!last_good || config::fault_of_file(*last_good)) throw;
-    config::log_error(std::string(error.what()) + "; trying the last good settings, " +
-                      last_good->string());
-    config::Sources good = sources;
-    good.file = *last_good;
-    OpenBox box = open_as_configured(good);
-    box.problem = error.what();
-    return box;
+    if (!has_last_good) throw;
+    return open_on_last_good(sources, *last_good, error.what());
   }
+  const std::string missing = box->devices.missing;
+  if (missing.empty() || !has_last_good || config::read_text(*last_good) == box->settings) {
+    return std::move(*box);
+  }
+  box.reset();  // no device is opened twice
+  if (auto good = open_without_waiting(sources, *last_good, missing)) return std::move(*good);
+  return open_as_configured(sources);
 }
 
 void check_last_good(const std::filesystem::path& last_good) {

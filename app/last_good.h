@@ -20,7 +20,8 @@ struct OpenBox {
 
 /// As the sources say. If that is wrong, or the devices that it names cannot be opened, and there
 /// is a file `last_good`, as that says in place of `sources.file`, and what was wrong is logged.
-/// Throws config::InputError if neither will do.
+/// Throws config::InputError if neither will do. A camera or screen that is missing by either is
+/// left to be waited for, as the sources say.
 OpenBox open_box(const config::Sources& sources,
                  const std::optional<std::filesystem::path>& last_good);
 

@@ -33,4 +33,11 @@ class InputError : public std::runtime_error {
   }
 };
 
+/// A device is named, but is not there now, or not one that will do: it is unplugged, or another
+/// program has it. That may pass: what can wait, waits for it.
+class Unavailable : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 }  // namespace lumibox::config

@@ -30,7 +30,8 @@ class Camera {
   /// Size, intrinsics and rate of the frames; fixed for the life of the object.
   virtual const config::CameraProfile& profile() const = 0;
 
-  /// Begins the stream. Throws config::InputError that names the device or file.
+  /// Begins the stream. Throws config::InputError that names the device or file, of a device that
+  /// may come back config::Unavailable.
   virtual void start() = 0;
   virtual void stop() = 0;
 

@@ -6,7 +6,9 @@
 #include "app/commands/support.h"
 #include "app/last_good.h"
 #include "app/loop.h"
+#include "app/metronome.h"
 #include "app/service.h"
+#include "app/waiting.h"
 
 namespace lumibox::app {
 namespace {
@@ -30,8 +32,8 @@ void print(const Loop& loop) {
 /// which pictures came on the screen are kept.
 class Caretaker {
  public:
-  Caretaker(const RunOptions& options, const OpenBox& box, const Loop& loop)
-      : options_(options), box_(box), loop_(loop) {
+  Caretaker(const RunOptions& options, const OpenBox& box, const Loop& loop, Service& service)
+      : options_(options), box_(box), loop_(loop), service_(service) {
     keeps_settings_ = options.last_good && options.sources.file && !box.problem;
   }
 
@@ -56,9 +58,22 @@ class Caretaker {
   const RunOptions& options_;
   const OpenBox& box_;
   const Loop& loop_;
-  Service service_;
+  Service& service_;
   bool keeps_settings_;
 };
+
+/// Until the box has its screen and its camera; false if it is to end before.
+bool wait_for_devices(OpenBox& box, Service& service) {
+  Waiting waiting(box.devices, box.config);
+  hal::Clock& clock = *box.devices.clock;
+  Metronome metronome(clock, box.config.loop.rate_hz);
+  while (!waiting.over() && stop_asked == 0) {
+    waiting.tick();
+    service.tick(clock.now_ns(), waiting.presented(), waiting.picture().title);
+    metronome.wait();
+  }
+  return waiting.over();
+}
 
 }  // namespace
 
@@ -68,12 +83,14 @@ void run(const RunOptions& options) {
   if (options.last_good) check_last_good(*options.last_good);
   OpenBox box = open_box(options.sources, options.last_good);
   make_folder(box.config.capture.folder);
+  Service service;
+  if (!wait_for_devices(box, service)) return;
   const geometry::Camera camera(box.devices.camera->profile());
   Loop loop(
       box.devices, box.config, box.config.capture.folder,
       box.devices.lockstep ? kLockstep : kThreaded,
       find_saved_capture(box.config.capture.folder, camera, box.config.tracking.pyramid_levels));
-  Caretaker caretaker(options, box, loop);
+  Caretaker caretaker(options, box, loop, service);
   Attempts attempts;  // what the run came to is said whatever went wrong
   attempts.attempt([&] { loop.run_and_finish([&] { return caretaker.go_on(); }); });
   print(loop);

@@ -63,8 +63,8 @@ class Context {
 kms::OpenCard open_and_hold(const KmsOptions& options) {
   kms::OpenCard opened = kms::open_card(options.card, options.mode);
   if (!opened.card->take_master()) {
-    throw config::InputError("display kms:" + opened.path +
-                             ": another program has the card; expected no desktop beside the box");
+    throw config::Unavailable("display kms:" + opened.path +
+                              ": another program has the card; expected no desktop beside the box");
   }
   return opened;
 }

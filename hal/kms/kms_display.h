@@ -26,7 +26,8 @@ struct KmsOptions {
 class KmsDisplay : public Display {
  public:
   /// Switches the screen on, black. `clock` must outlive this. Throws config::InputError that names
-  /// the card and what is missing: the card, permission, a screen, the mode.
+  /// the card and what is missing: permission, the mode; and config::Unavailable if that is the
+  /// card, because another program has it or there is none, or a screen.
   KmsDisplay(const KmsOptions& options, const Clock& clock);
   ~KmsDisplay() override;
 

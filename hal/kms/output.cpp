@@ -18,9 +18,13 @@ const Connector* first_usable(std::span<const Connector> connectors) {
   return found == connectors.end() ? nullptr : &*found;
 }
 
+bool is_denied(const CardFound& card) {
+  return card.error == EACCES || card.error == EPERM;
+}
+
 /// Why there is no picture to be had from this card; empty if there is.
 std::string fault_of(const CardFound& card) {
-  if (card.error == EACCES || card.error == EPERM) {
+  if (is_denied(card)) {
     return "permission denied; expected a user in the groups video and render";
   }
   if (card.error != 0) {
@@ -35,15 +39,12 @@ std::string fault_of(const CardFound& card) {
   return "no screen is connected; expected one at " + (sockets.empty() ? "a socket" : sockets);
 }
 
-[[noreturn]] void refuse(const std::string& path, const std::string& why) {
-  throw config::InputError("display kms:" + path + ": " + why);
-}
-
 void require_mode(const CardFound& card, const std::optional<ModeWish>& wish) {
   const Connector& screen = *first_usable(card.connectors);
   if (choose_mode(screen.modes, wish)) return;
-  refuse(card.path, "the screen at " + screen.name + " has no mode " + name_of(wish) +
-                        " (display.mode); expected one of " + names_of(screen.modes));
+  throw config::InputError("display kms:" + card.path + ": the screen at " + screen.name +
+                           " has no mode " + name_of(wish) + " (display.mode); expected one of " +
+                           names_of(screen.modes));
 }
 
 }  // namespace
@@ -60,6 +61,7 @@ std::optional<Output> choose_output(std::span<const Connector> connectors,
 std::size_t choose_card(std::span<const CardFound> cards, std::string_view asked_for,
                         const std::optional<ModeWish>& wish) {
   std::string faults;
+  bool denied = false;
   for (std::size_t i = 0; i < cards.size(); ++i) {
     if (!asked_for.empty() && cards[i].path != asked_for) continue;
     const std::string fault = fault_of(cards[i]);
@@ -68,9 +70,11 @@ std::size_t choose_card(std::span<const CardFound> cards, std::string_view asked
       return i;
     }
     faults += (faults.empty() ? "" : "; ") + cards[i].path + ": " + fault;
+    denied = denied || is_denied(cards[i]);
   }
-  if (!faults.empty()) throw config::InputError("display kms: " + faults);
-  refuse(std::string(asked_for), "no such card; expected one in /dev/dri");
+  if (denied) throw config::InputError("display kms: " + faults);
+  throw config::Unavailable("display kms: " +
+                            (faults.empty() ? "no card; expected one in /dev/dri" : faults));
 }
 
 std::optional<std::uint32_t> choose_format(std::span<const std::uint32_t> shown,

@@ -29,9 +29,9 @@ struct CardFound {
   std::vector<Connector> connectors;  ///< probed
 };
 
-/// Index of the first card with a screen that can be driven, or of the one asked for; throws
-/// config::InputError that says what is missing: a card, permission, a screen, or the mode.
-/// `wish` must be had on that screen.
+/// Index of the first card with a screen that can be driven, or of the one asked for. Throws
+/// config::Unavailable if there is no such card or no screen, and config::InputError if what is
+/// missing is permission or, on that screen, the mode wished for.
 std::size_t choose_card(std::span<const CardFound> cards, std::string_view asked_for,
                         const std::optional<ModeWish>& wish);
 

@@ -55,7 +55,7 @@ v4l2::Request request_of(const V4l2Options& options) {
 v4l2::Connection connect_or_throw(v4l2::VideoSystem& system, const v4l2::Request& request) {
   auto found = v4l2::connect(system, request);
   if (const auto* fault = std::get_if<std::string>(&found)) {
-    throw config::InputError("devices.camera: " + *fault);
+    throw config::Unavailable("devices.camera: " + *fault);
   }
   return std::get<v4l2::Connection>(std::move(found));
 }
@@ -72,21 +72,31 @@ config::CameraProfile assumed_profile(const v4l2::Mode& mode) {
 }
 
 /// What is known of the camera, with the rate that it runs at.
-config::CameraProfile profile_of(const V4l2Options& options, const v4l2::Connection& connection) {
-  const v4l2::Mode& mode = connection.layout.mode;
-  config::log_info(fmt::format("camera {} has {}; chosen: {}", connection.name(), connection.offer,
-                               v4l2::to_string(mode)));
-  if (!options.calibration) {
-    config::log_warning(
-        fmt::format("camera {}: no calibration; a horizontal field of view of {:.0f} degrees is "
-                    "assumed",
-                    connection.name(), kAssumedFieldOfViewDeg));
-  }
+config::CameraProfile profile_of(const V4l2Options& options, const v4l2::Mode& mode) {
   config::CameraProfile profile =
       options.calibration ? *options.calibration : assumed_profile(mode);
   const double rate = mode.interval.rate_hz();
   profile.fps = rate > 0.0 ? rate : options.wishes.rate_hz;
   return profile;
+}
+
+/// What there is to be said of a camera before its first picture: by level.
+struct Introduction {
+  std::string info;
+  std::string warning;  ///< empty: none
+};
+
+Introduction introduction_of(const V4l2Options& options, const v4l2::Connection& connection) {
+  Introduction words;
+  words.info = fmt::format("camera {} has {}; chosen: {}", connection.name(), connection.offer,
+                           v4l2::to_string(connection.layout.mode));
+  if (!options.calibration) {
+    words.warning = fmt::format(
+        "camera {}: no calibration; a horizontal field of view of {:.0f} degrees is "
+        "assumed",
+        connection.name(), kAssumedFieldOfViewDeg);
+  }
+  return words;
 }
 
 v4l2::StreamSettings settings_of(const V4l2Options& options) {
@@ -125,7 +135,8 @@ class V4l2Camera::Impl {
       : clock_(clock), service_(service), system_(std::move(system)) {
     const v4l2::Request request = request_of(options);
     v4l2::Connection connection = connect_or_throw(*system_, request);
-    profile_ = profile_of(options, connection);
+    profile_ = profile_of(options, connection.layout.mode);
+    introduction_ = introduction_of(options, connection);
     streamer_.emplace(*system_, slot_, request, std::move(connection), settings_of(options));
   }
 
@@ -140,8 +151,9 @@ class V4l2Camera::Impl {
   void start() {
     stop();
     if (const auto fault = streamer_->start(clock_.now_ns())) {
-      throw config::InputError("devices.camera: " + *fault);
+      throw config::Unavailable("devices.camera: " + *fault);
     }
+    introduce();
     if (service_ == Service::Thread) thread_ = std::thread([this] { run(); });
   }
 
@@ -167,6 +179,14 @@ class V4l2Camera::Impl {
   }
 
  private:
+  /// Once, and not before it streams: one that another program has may be tried for hours.
+  void introduce() {
+    if (!introduction_) return;
+    config::log_info(introduction_->info);
+    if (!introduction_->warning.empty()) config::log_warning(introduction_->warning);
+    introduction_.reset();
+  }
+
   void run() {
     while (!stopping_) {
       wait();
@@ -195,6 +215,7 @@ class V4l2Camera::Impl {
   Service service_;
   std::unique_ptr<v4l2::VideoSystem> system_;
   config::CameraProfile profile_;
+  std::optional<Introduction> introduction_;
   v4l2::FrameSlot slot_;
   std::optional<v4l2::Streamer> streamer_;
   WakeUp wake_up_;

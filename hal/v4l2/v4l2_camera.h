@@ -26,8 +26,9 @@ struct V4l2Options {
 enum class Service { Thread, Caller };
 
 /// A webcam, through Video4Linux2 (docs/camera.md). The constructor opens and sets it up, so that
-/// its profile is true, and throws config::InputError that names the device and what it has if it
-/// cannot be what the options ask for. A camera that is lost later is waited for.
+/// its profile is true. Throws config::InputError if the options make no sense, and
+/// config::Unavailable, which names the device and what it has, if there is no camera that is what
+/// they ask for; so does start() if it does not stream. A camera that is lost later is waited for.
 class V4l2Camera : public Camera {
  public:
   V4l2Camera(const V4l2Options& options, const Clock& clock,

@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "hal/offscreen/offscreen_display.h"
 #include "support/input_error.h"
 #include "support/recording.h"
 #include "support/temp_dir.h"
@@ -116,8 +117,6 @@ TEST(Devices, ACalibrationOverridesTheRecordings) {
 TEST(Devices, ARealCameraNeedsRealTimeAndACalibrationThatCanBeRead) {
   config::Config config;
   config.devices.camera = "v4l2:/nowhere/video";
-  EXPECT_THAT(complaint(config),
-              AllOf(HasSubstr("devices.camera: /nowhere/video"), HasSubstr("No such file")));
   config.devices.calibration = "/nowhere/own.toml";
   EXPECT_THAT(complaint(config), HasSubstr("/nowhere/own.toml"));
   config.devices.clock = "virtual";
@@ -129,12 +128,47 @@ TEST(Devices, TheScreenAndItsModeAreNamed) {
   config::Config config;
   config.devices.camera = "replay:" + recording.folder().string();
   config.devices.display = "kms:/nowhere/card0";
-  EXPECT_THAT(complaint(config), HasSubstr("display kms: /nowhere/card0: No such file"));
   config.display.mode = "huge";
   EXPECT_THAT(complaint(config),
               AllOf(HasSubstr("display.mode: \"huge\" is no mode"), HasSubstr("1280x720@60")));
   config.devices.display = "window:640x480";
   EXPECT_THAT(complaint(config), AllOf(HasSubstr("devices.display"), HasSubstr("kms:CARD")));
+}
+
+TEST(Devices, ACameraAndAScreenThatAreNotThereAreMissingAndMayCome) {
+  const testing::Recording recording;
+  config::Config config;
+  config.devices.camera = "v4l2:/nowhere/video";
+  config.devices.display = "offscreen:32x24";
+  Devices devices = open_devices(config);
+  EXPECT_FALSE(devices.camera);
+  EXPECT_THAT(devices.missing,
+              AllOf(HasSubstr("devices.camera: /nowhere/video"), HasSubstr("No such file")));
+  EXPECT_EQ(devices.display->width(), 32);
+  config.devices.camera = "replay:" + recording.folder().string();
+  config.devices.display = "kms:/nowhere/card0";
+  devices = Devices();
+  devices = open_devices(config);
+  EXPECT_FALSE(devices.display);
+  EXPECT_EQ(devices.missing,
+            "display kms: /nowhere/card0: No such file or directory; expected a "
+            "graphics card");
+  EXPECT_EQ(devices.camera->state(), hal::CameraState::Stopped) << "nobody would see it";
+  open_missing(devices);
+  EXPECT_THAT(devices.missing, HasSubstr("/nowhere/card0")) << "still";
+  devices.open_display = [] { return std::make_unique<hal::OffscreenDisplay>(32, 24); };
+  open_missing(devices);
+  EXPECT_EQ(devices.missing, "");
+  EXPECT_EQ(devices.camera->state(), hal::CameraState::Streaming);
+}
+
+TEST(Devices, NothingComesWhereTimeIsVirtual) {
+  const testing::Recording recording;
+  config::Config config;
+  config.devices.camera = "replay:" + recording.folder().string();
+  config.devices.display = "kms:/nowhere/card0";
+  config.devices.clock = "virtual";
+  EXPECT_THAT(complaint(config), HasSubstr("/nowhere/card0"));
 }
 
 TEST(Devices, MissingFilesAreNamed) {

@@ -60,6 +60,19 @@ TEST_F(LastGood, IfNeitherWillDoTheLatterIsSaid) {
               HasSubstr("good.toml:2"));
 }
 
+// The settings are right, and the screen is unplugged: it will come.
+TEST_F(LastGood, WhereTheyDoNotHaveTheDeviceEitherItIsWaitedFor) {
+  const std::string unplugged = settings("9", "kms:/nowhere/card0");
+  for (const std::string& good : {settings("7", "kms:/nowhere/card1"), settings("-7"), unplugged}) {
+    recording_.dir().write("good.toml", good);
+    const OpenBox box = open_box(sources(unplugged), good_);
+    EXPECT_EQ(box.config.loop.rate_hz, 9.0);
+    EXPECT_FALSE(box.problem);
+    EXPECT_THAT(box.devices.missing, HasSubstr("/nowhere/card0"));
+  }
+  EXPECT_THAT(open_box(sources(unplugged), std::nullopt).devices.missing, HasSubstr("card0"));
+}
+
 TEST_F(LastGood, AreACopyOfWhatWorked) {
   const OpenBox box = open_box(sources(settings("9")), good_);
   sources("changed [[ meanwhile");

@@ -6,6 +6,7 @@
 
 #include <cerrno>
 
+#include "config/error.h"
 #include "hal/fake_card.h"
 #include "hal/kms/output.h"
 #include "support/input_error.h"
@@ -102,7 +103,7 @@ TEST(ChooseCard, TheFirstWithAScreen) {
 }
 
 TEST(ChooseCard, SaysWhatIsMissing) {
-  EXPECT_THAT(complaint({}), HasSubstr("no such card; expected one in /dev/dri"));
+  EXPECT_EQ(complaint({}), "display kms: no card; expected one in /dev/dri");
   EXPECT_THAT(complaint({{"/dev/dri/card0", EACCES, false, {}}}),
               AllOf(HasSubstr("/dev/dri/card0: permission denied"), HasSubstr("video and render")));
   EXPECT_THAT(complaint({{"/dev/dri/card7", ENOENT, false, {}}}, "/dev/dri/card7"),
@@ -113,6 +114,30 @@ TEST(ChooseCard, SaysWhatIsMissing) {
       complaint({{"/dev/dri/card0", 0, false, {}}, {"/dev/dri/card1", 0, true, {unplugged}}}),
       AllOf(HasSubstr("card0: drives no screens"),
             HasSubstr("card1: no screen is connected; expected one at HDMI-A-1")));
+}
+
+// A plug mends what is missing, but no permission and no mode.
+TEST(ChooseCard, WhatMayComeIsToldFromWhatMayNot) {
+  const auto choose = [](const CardFound& card) {
+    return choose_card(std::vector{card}, "", parse_mode_wish("640x480"));
+  };
+  Connector unplugged = screen(1, {});
+  unplugged.connected = false;
+  EXPECT_THROW(choose_card({}, "", std::nullopt), config::Unavailable);
+  EXPECT_THROW(choose({"/dev/dri/card0", ENOENT, false, {}}), config::Unavailable);
+  EXPECT_THROW(choose({"/dev/dri/card0", 0, true, {unplugged}}), config::Unavailable);
+  const auto refused_for_good = [&](const CardFound& card) {
+    try {
+      choose(card);
+    } catch (const config::Unavailable&) {
+      return false;
+    } catch (const config::InputError&) {
+      return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(refused_for_good({"/dev/dri/card0", EACCES, false, {}}));
+  EXPECT_TRUE(refused_for_good({"/dev/dri/card0", 0, true, {screen(1, {mode(800, 600, 60)})}}));
 }
 
 TEST(ChooseCard, ListsTheModesThatThereAre) {
