@@ -17,13 +17,12 @@ constexpr std::array kCrashes = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
 
 std::atomic<int> asked_signal = 0;  // the handler may run on any thread
 static_assert(std::atomic<int>::is_always_lock_free, "or a handler may not touch it");
-volatile std::sig_atomic_t crash_file = -1;
+std::atomic<const VirtualTerminal*> crash_terminal = nullptr;
 
 void note(int signal) {
   asked_signal = signal;
 }
 
-/// Only system calls, so it may run in the handler of a crash.
 void to_text(int file) {
   vt_mode automatic{};
   automatic.mode = VT_AUTO;
@@ -31,8 +30,8 @@ void to_text(int file) {
   ioctl(file, VT_SETMODE, &automatic);
 }
 
-void to_text_and_crash(int signal) {
-  to_text(crash_file);
+void give_back_and_crash(int signal) {
+  crash_terminal.load()->give_back();
   std::raise(signal);  // handled as if there were no handler: it was for one time
 }
 
@@ -66,16 +65,22 @@ std::unique_ptr<VirtualTerminal> VirtualTerminal::on(int file) {
     to_text(file);  // as far as it may: a console of somebody else
     return nullptr;
   }
-  crash_file = file;
-  for (const int crash : kCrashes) handle_crash(crash, SIG_DFL, to_text_and_crash, SA_RESETHAND);
-  return std::unique_ptr<VirtualTerminal>(new VirtualTerminal(file));
+  std::unique_ptr<VirtualTerminal> terminal(new VirtualTerminal(file));
+  crash_terminal = terminal.get();
+  for (const int crash : kCrashes) handle_crash(crash, SIG_DFL, give_back_and_crash, SA_RESETHAND);
+  return terminal;
 }
 
 VirtualTerminal::~VirtualTerminal() {
-  for (const int crash : kCrashes) handle_crash(crash, to_text_and_crash, SIG_DFL, 0);
-  to_text(file_);
+  for (const int crash : kCrashes) handle_crash(crash, give_back_and_crash, SIG_DFL, 0);
+  give_back();
   handle(kLeaveSignal, SIG_IGN, 0);  // one may be on its way
   handle(kReturnSignal, SIG_IGN, 0);
+}
+
+void VirtualTerminal::give_back() const {
+  to_text(file_);
+  input_.restore();
 }
 
 Terminal::Request VirtualTerminal::take_request() {
