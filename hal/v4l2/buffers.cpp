@@ -77,8 +77,10 @@ std::optional<std::string> BufferRing::begin() {
   if (const int error = device_.ioctl(VIDIOC_REQBUFS, &request); error != 0) {
     return refusal("gives no buffers", error);
   }
-  if (auto fault = map_buffers(request.count)) return fault;
-  for (std::uint32_t i = 0; i < request.count; ++i) {
+  // As many as it likes, but the kernel has no more than these.
+  const std::uint32_t count = std::min<std::uint32_t>(request.count, VIDEO_MAX_FRAME);
+  if (auto fault = map_buffers(count)) return fault;
+  for (std::uint32_t i = 0; i < count; ++i) {
     if (const int error = queue(i); error != 0) return refusal("takes no buffers", error);
   }
   int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;

@@ -63,8 +63,9 @@ std::string formats_of(const std::vector<Mode>& modes) {
 
 std::string offer_of(const std::vector<Mode>& modes) {
   const std::set<std::pair<int, int>> sizes = sizes_in(modes);
-  const auto largest = std::ranges::max(
-      sizes, {}, [](const std::pair<int, int>& size) { return size.first * size.second; });
+  const auto largest = std::ranges::max(sizes, {}, [](const std::pair<int, int>& size) {
+    return std::int64_t{size.first} * size.second;
+  });
   return fmt::format("{} in {} size{} up to {}x{}", formats_of(modes), sizes.size(),
                      sizes.size() == 1 ? "" : "s", largest.first, largest.second);
 }

@@ -36,6 +36,9 @@ constexpr Setting kSteadyRate{V4L2_CID_EXPOSURE_AUTO_PRIORITY, "exposure before 
 
 constexpr int kTries = 3;
 
+// No camera has as many; a driver that never says that there are no more must not hold us up.
+constexpr std::size_t kMostControls = 512;
+
 std::optional<v4l2_queryctrl> query(VideoDevice& device, std::uint32_t id) {
   v4l2_queryctrl control{};
   control.id = id;
@@ -92,19 +95,18 @@ bool is_listed(const v4l2_queryctrl& control) {
 
 std::vector<Control> list_controls(VideoDevice& device) {
   std::vector<Control> controls;
-  v4l2_queryctrl control{};
-  control.id = V4L2_CTRL_FLAG_NEXT_CTRL;
-  while (device.ioctl(VIDIOC_QUERYCTRL, &control) == 0) {
+  std::uint32_t last = 0;
+  for (std::size_t i = 0; i < kMostControls; ++i) {
+    v4l2_queryctrl control{};
+    control.id = last | V4L2_CTRL_FLAG_NEXT_CTRL;
+    if (device.ioctl(VIDIOC_QUERYCTRL, &control) != 0 || control.id <= last) break;
+    last = control.id;
     const auto value = is_listed(control) ? read(device, control.id) : std::nullopt;
-    if (value) {
-      const auto* name = reinterpret_cast<const char*>(control.name);
-      const auto* end = std::find(name, name + sizeof control.name, '\0');
-      controls.push_back(
-          {control.id, std::string(name, end), control.minimum, control.maximum, *value});
-    }
-    const std::uint32_t next = control.id | V4L2_CTRL_FLAG_NEXT_CTRL;
-    control = {};
-    control.id = next;
+    if (!value) continue;
+    const auto* name = reinterpret_cast<const char*>(control.name);
+    const auto* end = std::find(name, name + sizeof control.name, '\0');
+    controls.push_back(
+        {control.id, std::string(name, end), control.minimum, control.maximum, *value});
   }
   return controls;
 }

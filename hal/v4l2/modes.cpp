@@ -44,6 +44,10 @@ struct Size {
 
 // No camera offers as many; a driver that never says that there are no more must not hold us up.
 constexpr std::uint32_t kMostEntries = 512;
+constexpr std::size_t kMostModes = 4096;  // entries of entries of entries
+
+// Pixels a side: more than any camera has, and few enough for any product of two.
+constexpr std::uint32_t kLargestSide = 32768;
 
 /// All answers to a question that the driver answers one by one, up to its first refusal.
 template <typename Item>
@@ -58,11 +62,12 @@ std::vector<Item> enumerate(VideoDevice& device, unsigned long request, Item ite
 }
 
 int nearest_on_grid(int wish, std::uint32_t least, std::uint32_t most, std::uint32_t step) {
-  const int low = static_cast<int>(least);
-  const int pitch = std::max(1, static_cast<int>(step));
-  const int steps = (std::clamp(wish, low, static_cast<int>(most)) - low + pitch / 2) / pitch;
-  const int nearest = low + steps * pitch;
-  return nearest <= static_cast<int>(most) ? nearest : nearest - pitch;
+  const std::int64_t low = std::min(least, kLargestSide);
+  const std::int64_t high = std::max(low, std::int64_t{std::min(most, kLargestSide)});
+  const std::int64_t pitch = std::clamp(step, 1U, kLargestSide);
+  const std::int64_t steps = (std::clamp(std::int64_t{wish}, low, high) - low + pitch / 2) / pitch;
+  const std::int64_t nearest = low + steps * pitch;
+  return static_cast<int>(nearest <= high ? nearest : nearest - pitch);
 }
 
 std::vector<Size> list_sizes(VideoDevice& device, std::uint32_t fourcc, const Wish& wish) {
@@ -71,8 +76,9 @@ std::vector<Size> list_sizes(VideoDevice& device, std::uint32_t fourcc, const Wi
   std::vector<Size> sizes;
   for (const auto& answer : enumerate(device, VIDIOC_ENUM_FRAMESIZES, question)) {
     if (answer.type == V4L2_FRMSIZE_TYPE_DISCRETE) {
-      sizes.push_back(
-          {static_cast<int>(answer.discrete.width), static_cast<int>(answer.discrete.height)});
+      const auto [width, height] = answer.discrete;
+      if (std::max(width, height) > kLargestSide) continue;
+      sizes.push_back({static_cast<int>(width), static_cast<int>(height)});
       continue;
     }
     const v4l2_frmsize_stepwise& range = answer.stepwise;
@@ -192,6 +198,7 @@ std::vector<Mode> list_modes(VideoDevice& device, const Wish& wish) {
            list_intervals(device, answer.pixelformat, size, wish.rate_hz)) {
         modes.push_back({*format, size.width, size.height, interval});
       }
+      if (modes.size() >= kMostModes) return modes;
     }
   }
   return modes;
@@ -217,12 +224,17 @@ std::variant<Layout, std::string> set_mode(VideoDevice& device, const Mode& mode
   if (const int error = device.ioctl(VIDIOC_S_FMT, &format); error != 0) {
     return refusal("refuses " + to_string(mode), error);
   }
-  if (format_of(pix.pixelformat) != mode.format || static_cast<int>(pix.width) != mode.width ||
-      static_cast<int>(pix.height) != mode.height) {
+  if (format_of(pix.pixelformat) != mode.format ||
+      pix.width != static_cast<std::uint32_t>(mode.width) ||
+      pix.height != static_cast<std::uint32_t>(mode.height)) {
     return fmt::format("was asked for {} and gives {}x{} in {}", to_string(mode), pix.width,
                        pix.height,
                        format_of(pix.pixelformat) ? name_of(*format_of(pix.pixelformat))
                                                   : "a format that is not read here");
+  }
+  if (pix.field != V4L2_FIELD_NONE && pix.field != V4L2_FIELD_ANY) {  // the latter: it does not say
+    return fmt::format("gives {} interlaced; expected whole pictures (progressive)",
+                       to_string(mode));
   }
   Layout layout = layout_of(mode, pix);
   layout.mode.interval = set_interval(device, mode.interval);

@@ -48,6 +48,7 @@ struct Wish {
 
 /// Everything the camera offers in a format that can be read here. Where it offers any size or rate
 /// in a range, the one nearest to the wish stands for all. Sizes are even, as chroma has it.
+/// Bounded, whatever the driver answers: so many entries, and sides of 32768 pixels at most.
 std::vector<Mode> list_modes(VideoDevice& device, const Wish& wish);
 
 /// The mode nearest to the wish: first in size, then fast enough, then no faster than that, then by
@@ -63,7 +64,7 @@ struct Layout {
 };
 
 /// Sets a mode, and checks what became of it. The reason if the camera refuses or gives another
-/// size or format; another rate is taken as it is.
+/// size or format, or pictures in two halves (interlaced); another rate is taken as it is.
 std::variant<Layout, std::string> set_mode(VideoDevice& device, const Mode& mode);
 
 /// "<what>: <why>" of a camera that refused, and what may help.

@@ -12,6 +12,10 @@
 namespace lumibox::hal::v4l2 {
 namespace {
 
+/// Pictures, many times what the ring holds: a driver that fills buffers faster than they are
+/// emptied must not hold us up.
+constexpr int kMostAtOnce = 64;
+
 std::int64_t patience_ns(const Layout& layout, const Request& request, int stall_periods) {
   const double rate = layout.mode.interval.rate_hz();
   return std::llround(1e9 * stall_periods / (rate > 0.0 ? rate : request.wish.rate_hz));
@@ -105,13 +109,14 @@ void Streamer::update_hold() {
 void Streamer::drain(std::int64_t now_ns) {
   int error = 0;
   Filled filled;
-  while (ring_ && (error = ring_->take(filled)) == 0) {
+  for (int i = 0; i < kMostAtOnce; ++i) {
+    if ((error = ring_->take(filled)) != 0) break;
     if (accept(filled, now_ns)) continue;
     if (const int refused = ring_->give_back(filled); refused != 0) {
       return lose("it takes no buffers: " + config::error_text(refused), now_ns);
     }
   }
-  if (error != EAGAIN) return lose(config::error_text(error), now_ns);
+  if (error != 0 && error != EAGAIN) return lose(config::error_text(error), now_ns);
   const bool any = newest_.has_value();
   hand_over(now_ns);
   if (ring_ && !any && connection_.device->hung_up()) lose("it hung up", now_ns);

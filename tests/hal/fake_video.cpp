@@ -132,6 +132,7 @@ class OpenFake : public hal::v4l2::VideoDevice {
 };
 
 int OpenFake::ioctl(unsigned long request, void* argument) {
+  ++camera_->calls;
   if (camera_->calls_until_unplugged == 0) camera_->unplug();
   if (camera_->calls_until_unplugged >= 0) --camera_->calls_until_unplugged;
   if (is_gone()) return ENODEV;
@@ -189,12 +190,13 @@ int OpenFake::enumerate_format(v4l2_fmtdesc& format) const {
   for (const FakeMode& mode : camera_->modes) {
     if (std::ranges::find(formats, mode.fourcc) == formats.end()) formats.push_back(mode.fourcc);
   }
-  if (format.index >= formats.size()) return EINVAL;
-  format.pixelformat = formats[format.index];
+  if (format.index >= formats.size() && !camera_->endless) return EINVAL;
+  format.pixelformat = formats[format.index % formats.size()];
   return 0;
 }
 
 int OpenFake::enumerate_size(v4l2_frmsizeenum& size) const {
+  if (camera_->endless) size.index = 0;
   if (camera_->any_size) {
     if (size.index > 0) return EINVAL;
     size.type = V4L2_FRMSIZE_TYPE_STEPWISE;
@@ -213,6 +215,7 @@ int OpenFake::enumerate_size(v4l2_frmsizeenum& size) const {
 }
 
 int OpenFake::enumerate_interval(v4l2_frmivalenum& interval) const {
+  if (camera_->endless) interval.index = 0;
   if (camera_->any_rate) {
     if (interval.index > 0) return EINVAL;
     interval.type = V4L2_FRMIVAL_TYPE_STEPWISE;
@@ -246,6 +249,7 @@ int OpenFake::set_format(v4l2_format& format) {
   }
   if (camera_->other_size) std::tie(mode_.width, mode_.height) = *camera_->other_size;
   pix.pixelformat = mode_.fourcc;
+  pix.field = camera_->field;
   pix.width = static_cast<std::uint32_t>(mode_.width);
   pix.height = static_cast<std::uint32_t>(mode_.height);
   const std::size_t row = mode_.fourcc == V4L2_PIX_FMT_YUYV ? 2U * pix.width : pix.width;
@@ -298,6 +302,7 @@ int OpenFake::dequeue(v4l2_buffer& buffer) {
   make_pictures();
   if (camera_->take_error != 0) return camera_->take_error;
   if (!streaming_) return EINVAL;
+  if (camera_->hasty && done_.empty()) make_picture(sequence_++, clock_.now_ns());
   if (done_.empty()) return EAGAIN;
   const Done done = done_.front();
   done_.pop_front();
@@ -333,6 +338,7 @@ int OpenFake::describe_control(v4l2_queryctrl& control) const {
   const bool next = (control.id & V4L2_CTRL_FLAG_NEXT_CTRL) != 0;
   const std::uint32_t id = control.id & ~V4L2_CTRL_FLAG_NEXT_CTRL;
   const auto found = next ? camera_->controls.upper_bound(id) : camera_->controls.find(id);
+  if (next && found == camera_->controls.end() && camera_->endless) return 0;  // just as asked
   if (found == camera_->controls.end()) return EINVAL;
   control = {};
   control.id = found->first;

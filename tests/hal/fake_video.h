@@ -55,6 +55,9 @@ struct FakeCamera {
   std::optional<v4l2_fract> other_interval;       ///< what it keeps to, whatever it is asked for
   std::optional<std::pair<int, int>> other_size;  ///< what it gives, whatever it is asked for
   std::map<std::uint32_t, FakeControl> controls;
+  std::uint32_t field = V4L2_FIELD_NONE;
+  bool endless = false;  ///< never says that there are no more formats, sizes, rates, controls
+  bool hasty = false;    ///< a picture is there whenever it is asked for one
   bool limited_range = false;  ///< of luma and chroma, but for JPEG
   std::size_t padding = 0;     ///< bytes at the end of each row, but for JPEG
 
@@ -70,6 +73,7 @@ struct FakeCamera {
   std::set<std::uint32_t> faulty, cut, garbled, skipped;  ///< sequence numbers of pictures
 
   int opened = 0;
+  int calls = 0;                                               ///< ioctls
   int open = 0;                                                ///< now
   int streams = 0;                                             ///< begun
   int mapped = 0;                                              ///< buffers, now

@@ -228,6 +228,13 @@ TEST_F(V4l2CameraTest, ALongPauseCostsPicturesAndNothingElse) {
   EXPECT_EQ(webcam_->streams, 1);
 }
 
+TEST_F(V4l2CameraTest, ACameraThatFillsBuffersFasterThanTheyAreEmptiedIsNoTrap) {
+  webcam_->hasty = true;
+  start();
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(step());
+  EXPECT_EQ(camera_->state(), CameraState::Streaming);
+}
+
 TEST_F(V4l2CameraTest, TimesAreTheDriversOrThoseAtWhichPicturesCame) {
   start();
   EXPECT_EQ(step()->timestamp_ns, kPeriodNs);

@@ -9,6 +9,7 @@
 #include "hal/fake_video.h"
 #include "hal/sim/virtual_clock.h"
 #include "hal/v4l2/camera_list.h"
+#include "hal/v4l2/controls.h"
 #include "hal/v4l2/modes.h"
 
 namespace lumibox::hal::v4l2 {
@@ -60,6 +61,44 @@ TEST_F(V4l2Modes, OfRangesTheNearestToTheWishIsListed) {
   EXPECT_EQ(of(641, 480, 12.5), "mjpeg 642x480 at 12.5 Hz");
   EXPECT_EQ(of(4000, 3000, 90), "mjpeg 1920x1200 at 60 Hz");
   EXPECT_EQ(of(4000, 3000, 1), "mjpeg 1920x1200 at 5 Hz");
+}
+
+TEST_F(V4l2Modes, SizesBeyondAllReasonAreLeftOut) {
+  camera_->modes = {{V4L2_PIX_FMT_MJPEG, 1 << 30, 1 << 30, {30}},
+                    {V4L2_PIX_FMT_MJPEG, 640, -480, {30}},  // over four thousand million
+                    {V4L2_PIX_FMT_MJPEG, 640, 480, {30}}};
+  EXPECT_THAT(texts(list_modes(device(), {})), ElementsAre("mjpeg 640x480 at 30 Hz"));
+}
+
+TEST_F(V4l2Modes, RangesMayReachAsFarAsTheKernelCounts) {
+  constexpr std::uint32_t kMost = 0xFFFFFFFF;
+  camera_->any_rate = v4l2_frmival_stepwise{{1, 60}, {1, 5}, {1, 1}};
+  const auto of = [this](const v4l2_frmsize_stepwise& range) {
+    camera_->any_size = range;
+    return texts(list_modes(device(), {})).front();
+  };
+  EXPECT_EQ(of({2, kMost, 2, 2, kMost, 2}), "mjpeg 640x480 at 30 Hz");
+  EXPECT_EQ(of({2, 640, kMost, 480, kMost, kMost}), "mjpeg 2x480 at 30 Hz");
+  EXPECT_EQ(of({kMost, kMost, 0, kMost, 2, 0}), "mjpeg 32768x32768 at 30 Hz") << "makes no sense";
+}
+
+TEST_F(V4l2Modes, ADriverThatNeverSaysThatThereAreNoMoreIsNotListenedToForEver) {
+  camera_->endless = true;
+  camera_->controls = testing::webcam_controls();
+  EXPECT_EQ(list_modes(device(), {}).size(), 4096U);
+  EXPECT_EQ(list_controls(device()).size(), camera_->controls.size());
+  EXPECT_LT(camera_->calls, 20'000);
+}
+
+TEST_F(V4l2Modes, HalfPicturesAreRefused) {
+  const Mode wished{PixelFormat::Mjpeg, 32, 24, {1, 10}};
+  for (const std::uint32_t field : {V4L2_FIELD_INTERLACED, V4L2_FIELD_ALTERNATE, V4L2_FIELD_TOP}) {
+    camera_->field = field;
+    EXPECT_EQ(std::get<std::string>(set_mode(device(), wished)),
+              "gives mjpeg 32x24 at 10 Hz interlaced; expected whole pictures (progressive)");
+  }
+  camera_->field = V4L2_FIELD_ANY;  // which drivers must not say, but do
+  EXPECT_TRUE(std::holds_alternative<Layout>(set_mode(device(), wished)));
 }
 
 TEST_F(V4l2Modes, CamerasThatDoNotSayTheirRatesHaveOneMode) {
