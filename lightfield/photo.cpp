@@ -35,8 +35,6 @@ Photo::Photo(std::filesystem::path file, const geometry::Camera& camera)
 
 std::shared_ptr<const hal::Image> Photo::rgb() const {
   if (auto pixels = in_memory()) return pixels;
-  const std::lock_guard one_reads(reading_);
-  if (auto pixels = in_memory()) return pixels;  // somebody has read them meanwhile
   return fault() ? nullptr : read();
 }
 
@@ -57,9 +55,10 @@ std::optional<std::string> Photo::fault() const {
 }
 
 void Photo::stored_in(std::filesystem::path file) {
+  std::shared_ptr<const hal::Image> let_go;  // which takes longer than the lock may be held
   const std::lock_guard lock(mutex_);
   file_ = std::move(file);
-  held_.reset();
+  let_go.swap(held_);
 }
 
 std::filesystem::path Photo::file() const {
@@ -72,7 +71,8 @@ std::size_t Photo::bytes_held() const {
   return held_ ? held_->size_bytes() : 0;
 }
 
-/// Whatever goes wrong is this photo's fault and nobody else's.
+/// Whatever goes wrong is this photo's fault and nobody else's. Nobody waits for another who reads,
+/// since that one may be a thread that is put aside for long (config::step_back).
 std::shared_ptr<const hal::Image> Photo::read() const {
   std::shared_ptr<const hal::Image> pixels;
   std::optional<std::string> fault;
@@ -82,6 +82,7 @@ std::shared_ptr<const hal::Image> Photo::read() const {
     fault = exception.what();
   }
   const std::lock_guard lock(mutex_);
+  if (auto first = pixels_.lock()) return first;  // somebody was quicker: all share the same
   pixels_ = pixels;
   fault_ = std::move(fault);
   return pixels;

@@ -36,7 +36,8 @@ class Photo {
   int height() const { return height_; }
 
   /// Three channels of width() x height(). The pixels in memory if anybody still holds them, else
-  /// those of the file, in some milliseconds; who asks meanwhile shares them. Null if it is lost.
+  /// those of the file, in some milliseconds. Who asks while another reads does not wait for that,
+  /// but reads too; all who hold pixels share the first that were read. Null if it is lost.
   std::shared_ptr<const hal::Image> rgb() const;
 
   /// The pixels if anybody holds them now; nothing is read.
@@ -61,7 +62,6 @@ class Photo {
 
   int width_;
   int height_;
-  mutable std::mutex reading_;                      ///< held by who reads the file
   mutable std::mutex mutex_;                        ///< guards all below, for moments only
   std::shared_ptr<const hal::Image> held_;          ///< until it is stored
   mutable std::weak_ptr<const hal::Image> pixels_;  ///< whoever holds them

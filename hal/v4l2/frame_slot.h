@@ -26,7 +26,8 @@ class FrameSlot {
   /// Decodes what was put, if the loop keeps up. By whoever puts.
   void decode_ahead();
 
-  /// The newest picture not taken yet. One that turns out to be damaged is counted as dropped.
+  /// The newest picture not taken yet; waits for one that is being decoded ahead, since without it
+  /// the loop would see that a tick later. One that turns out to be damaged is counted as dropped.
   std::optional<Frame> take();
 
   /// Forgets, and counts, what has not been taken.

@@ -132,9 +132,9 @@ TEST_F(PhotoTest, IsWhatTheFileShowsNow) {
   EXPECT_EQ(*photo_->rgb(), hal::read_image(file_));
 }
 
-// All hold what they got until everybody has it: one reading serves all. A large picture, or each
-// would be read before the next thread has begun.
-TEST_F(PhotoTest, IsReadOnceForAllWhoAskTogether) {
+// All hold what they got until everybody has it, and whoever read it, it is in memory once. A large
+// picture, or each would be read before the next thread has begun.
+TEST_F(PhotoTest, IsInMemoryOnceForAllWhoAskTogether) {
   constexpr int kThreads = 8;
   write_text(file_, jpeg(hal::Image(1280, 960, 3)));
   const Photo photo(file_, geometry::Camera(testing::pinhole(1280, 960, 1000.0)));
