@@ -119,6 +119,23 @@ std::vector<std::string> set_controls(VideoDevice& device, const std::vector<Set
   return faults;
 }
 
+Automatic make_automatic(VideoDevice& device) {
+  Automatic result;
+  const auto reset = [&](std::uint32_t id, const char* name) {
+    const auto now = adjustable(device, id);
+    const auto control = query(device, id);
+    if (!now || !control || *now == control->default_value) return;
+    if (auto fault = set(device, {id, name, control->default_value})) {
+      result.faults.push_back(*std::move(fault));
+    } else {
+      result.switched.emplace_back(name);
+    }
+  };
+  for (const Automatism& row : kAutomatisms) reset(row.switch_id, row.switch_name);
+  reset(kSteadyRate.id, kSteadyRate.name);
+  return result;
+}
+
 std::vector<std::string> ExposureHold::hold(VideoDevice& device) {
   if (holds()) return set_controls(device, held_);
   // All are read before the first is set: without its automatism a value may already be another.

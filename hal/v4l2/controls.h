@@ -32,6 +32,14 @@ struct Setting {
 /// while their autofocus is on. Says in words what could not be set.
 std::vector<std::string> set_controls(VideoDevice& device, const std::vector<Setting>& settings);
 
+/// Switches on what a camera does by itself, as far as its driver has it on by default: who had the
+/// camera before may have ended while it held that, as this program does in a crash.
+struct Automatic {
+  std::vector<std::string> switched;  ///< names of what was not as by default
+  std::vector<std::string> faults;    ///< in words, what could not be set
+};
+Automatic make_automatic(VideoDevice& device);
+
 /// Holds focus, exposure and white balance as they are, so that pictures of one subject match. What
 /// a camera does not have is left out.
 class ExposureHold {

@@ -1,6 +1,6 @@
 #include "hal/v4l2/streamer.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <cerrno>
 #include <cmath>
@@ -50,7 +50,17 @@ std::optional<std::string> Streamer::start(std::int64_t now_ns) {
     }
   }
   state_ = CameraState::Streaming;
+  free_what_was_left_held();
   return std::nullopt;
+}
+
+void Streamer::free_what_was_left_held() {
+  const Automatic automatic = make_automatic(*connection_.device);
+  if (!automatic.switched.empty()) {
+    config::log_info(
+        fmt::format("{}: as by default again: {}", name_, fmt::join(automatic.switched, ", ")));
+  }
+  say_faults(automatic.faults);
 }
 
 void Streamer::stop() {

@@ -60,6 +60,7 @@ class Streamer {
   };
 
   std::optional<std::string> open_and_begin(std::int64_t now_ns);
+  void free_what_was_left_held();
   std::optional<std::string> begin_stream(std::int64_t now_ns);
   void update_hold();
   void drain(std::int64_t now_ns);

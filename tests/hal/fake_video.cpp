@@ -345,6 +345,7 @@ int OpenFake::describe_control(v4l2_queryctrl& control) const {
   control.type = found->second.type;
   control.minimum = found->second.least;
   control.maximum = found->second.most;
+  control.default_value = found->second.usual;
   set_text(control.name, found->second.name);
   return 0;
 }
@@ -497,6 +498,7 @@ std::map<std::uint32_t, FakeControl> webcam_controls() {
                                        .value = 40,
                                        .ruled_by = V4L2_CID_FOCUS_AUTO,
                                        .ruled_unless = 0};
+  for (auto& [id, control] : controls) control.usual = control.value;
   return controls;
 }
 

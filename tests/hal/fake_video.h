@@ -31,6 +31,7 @@ struct FakeControl {
   std::int32_t least = 0;
   std::int32_t most = 255;
   std::int32_t value = 0;
+  std::int32_t usual = 0;               ///< the driver's default
   std::uint32_t ruled_by = 0;           ///< cannot be written while this one has another value than
   std::int32_t ruled_unless = 0;        ///< this; 0, 0: always can
   std::set<std::int32_t> entries = {};  ///< of a menu

@@ -429,6 +429,20 @@ TEST_F(V4l2CameraTest, LeavesTheCameraAsItFoundIt) {
   EXPECT_EQ(value(V4L2_CID_FOCUS_AUTO), 1);
 }
 
+TEST_F(V4l2CameraTest, WhatACrashLeftHeldIsAutomaticAgainBeforeTheFirstPicture) {
+  webcam_->controls[V4L2_CID_EXPOSURE_AUTO].value = V4L2_EXPOSURE_MANUAL;
+  webcam_->controls[V4L2_CID_FOCUS_AUTO].value = 0;
+  start();
+  EXPECT_EQ(value(V4L2_CID_EXPOSURE_AUTO), V4L2_EXPOSURE_APERTURE_PRIORITY);
+  EXPECT_EQ(value(V4L2_CID_FOCUS_AUTO), 1);
+  ASSERT_TRUE(step());
+  camera_->lock_exposure(true);
+  step();
+  EXPECT_EQ(value(V4L2_CID_EXPOSURE_AUTO), V4L2_EXPOSURE_MANUAL);
+  camera_.reset();
+  EXPECT_EQ(value(V4L2_CID_EXPOSURE_AUTO), V4L2_EXPOSURE_APERTURE_PRIORITY);
+}
+
 TEST_F(V4l2CameraTest, AnExposureFreedWhileTheCameraIsGoneIsFreedWhenItIsBack) {
   start();
   ASSERT_TRUE(step());
