@@ -132,11 +132,12 @@ void Mapper::run() {
                   [this] { return stopping_ || !requests_.empty() || (resting_ && !finishing_); });
     if (stopping_) return;
     if (!requests_.empty()) {
-      const KeyframeRequest request = std::move(requests_.front());
+      std::optional<KeyframeRequest> request = std::move(requests_.front());
       requests_.pop_front();
       integrating_ = true;
       lock.unlock();
-      attempt([&] { integrate(request); });
+      attempt([&] { integrate(*request); });
+      request.reset();  // with its picture, before anybody waits for the lock
       lock.lock();
       integrating_ = false;
     } else {
@@ -225,8 +226,11 @@ void Mapper::weigh(const std::vector<PointEvidence>& evidence) {
 void Mapper::publish() {
   auto view = std::make_shared<MapView>(map_.view(++revision_));
   view->loops_closed = loops_closed_;
-  const std::lock_guard lock(mutex_);
-  view_ = std::move(view);
-}
+  std::shared_ptr<const MapView> newest = std::move(view);
+  {
+    const std::lock_guard lock(mutex_);
+    view_.swap(newest);
+  }
+}  // the one before ends here: thousands of points, for which nobody waits
 
 }  // namespace lumibox::tracking

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "config/error.h"
+#include "config/loader.h"
 #include "render/gl_test.h"
 #include "render/image_quality.h"
 #include "render/light.h"
@@ -111,6 +113,15 @@ double unevenness(const hal::Image& with_spot, const hal::Image& without, double
     }
   }
   return largest * count / sum;
+}
+
+TEST(LightMean, HoldsAsManyPicturesAsMayBeConfigured) {
+  const auto load = [](int views) {
+    return config::load(
+        {.system_file = {}, .assignments = {"render.aperture_views=" + std::to_string(views)}});
+  };
+  EXPECT_EQ(load(LightMean::kMost).render.aperture_views, LightMean::kMost);
+  EXPECT_THROW(load(LightMean::kMost + 1), config::InputError);
 }
 
 TEST_F(BokehTest, APointOutOfFocusIsASmoothDisc) {

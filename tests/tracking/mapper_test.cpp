@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <numbers>
 
 #include "geometry/rotation.h"
@@ -102,6 +103,29 @@ TEST(Mapper, RequestsWhileItAdjustsAtRestAreAllAnswered) {
   mapper.rest();
   mapper.finish();
   EXPECT_EQ(mapper.view()->keyframes.size(), 8U);
+}
+
+// A picture that asks the mapper something when it ends would wait for itself if that were done
+// with the lock held, for which the loop waits too.
+TEST(Mapper, WhatIsWorkedOffEndsOutsideTheLock) {
+  config::Tracking options;
+  options.pyramid_levels = 3;
+  Mapper mapper(testing::small_camera(), options, Mapping::Threaded);
+  mapper.start(two_views());
+  mapper.request(broken_keyframe());  // from now on pictures are kept by nobody
+  mapper.finish();
+  std::atomic<int> ended = 0;
+  for (int i = 0; i < 3; ++i) {
+    KeyframeRequest request = broken_keyframe();
+    request.pyramid = std::shared_ptr<const Pyramid>(request.pyramid.get(),
+                                                     [&, kept = request.pyramid](const Pyramid*) {
+                                                       EXPECT_TRUE(mapper.busy());
+                                                       ++ended;
+                                                     });
+    mapper.request(std::move(request));
+  }
+  mapper.finish();
+  EXPECT_EQ(ended, 3);
 }
 
 }  // namespace
