@@ -1,9 +1,12 @@
 #include "app/screen.h"
 
+#include <GLES3/gl3.h>
+
 #include <algorithm>
 #include <vector>
 
 #include "config/log.h"
+#include "render/gl.h"
 
 namespace lumibox::app {
 namespace {
@@ -33,7 +36,8 @@ Screen::Screen(hal::Display& display, const hal::Clock& clock, const geometry::C
 
 void Screen::begin_drawing() {
   overlay_.emplace();
-  viewer_.begin_drawing({view_camera_, geometry::Pose{}}, live_, display_.framebuffer());
+  viewer_.begin_drawing();
+  first_picture_ = true;
 }
 
 void Screen::present() {
@@ -50,6 +54,12 @@ void Screen::present() {
 
 void Screen::draw(const Picture& picture, const hal::Frame& frame, std::int64_t deadline_ns) {
   const render::View view{view_camera_, picture.world_from_view.value_or(geometry::Pose{})};
+  // One shader with each picture, so that the first one is on the screen soon; not while a light
+  // field is shown, which has what it needs compiled by itself.
+  if (!first_picture_ && !picture.light_field) {
+    viewer_.prepare_next({view_camera_, geometry::Pose{}}, live_, display_.framebuffer());
+  }
+  first_picture_ = false;
   draw_backdrop(picture, frame, view, deadline_ns);
   const unsigned framebuffer = display_.framebuffer();
   if (picture.coverage) {
@@ -73,7 +83,9 @@ void Screen::draw_backdrop(const Picture& picture, const hal::Frame& frame,
   } else if (frame.color) {
     overlay_->draw_image(*frame.color, *live_, view, 1.0F, framebuffer);
   } else {
-    viewer_.clear(view, framebuffer);
+    render::gl::begin(framebuffer, display_.width(), display_.height(), render::gl::Blend::Replace);
+    glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
+    glClear(GL_COLOR_BUFFER_BIT);
   }
 }
 

@@ -49,6 +49,7 @@ class Screen {
   std::shared_ptr<const geometry::Camera> live_;
   geometry::Camera view_camera_;  ///< without distortion, of the display's size
   Viewer viewer_;
+  bool first_picture_ = true;  ///< of this context
   std::optional<render::Overlay> overlay_;  ///< none only while a context is made again
 };
 

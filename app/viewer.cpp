@@ -76,14 +76,18 @@ Viewer::Viewer(const hal::Clock& clock, const config::Render& options,
   }
 }
 
-void Viewer::begin_drawing(const render::View& view,
-                           const std::shared_ptr<const geometry::Camera>& live,
-                           unsigned framebuffer) {
+void Viewer::begin_drawing() {
   gl_.emplace(options_, reader_ ? &reader_->pictures() : nullptr);
-  gl_->renderer.prepare(view, live, framebuffer);
+}
+
+void Viewer::prepare_next(const render::View& view,
+                          const std::shared_ptr<const geometry::Camera>& live,
+                          unsigned framebuffer) {
+  if (gl_->prepared || gl_->renderer.prepare_next(view, live, framebuffer)) return;
   // The first enlargement would have its tick wait for the driver's compiler, as would a shader.
   gl_->moving.set_size(view.camera.width() / 2, view.camera.height() / 2);
   gl_->moving.show(framebuffer, view.camera.width(), view.camera.height());
+  gl_->prepared = true;
 }
 
 void Viewer::end_drawing() {
@@ -91,10 +95,6 @@ void Viewer::end_drawing() {
   rest_.reset();
   refinement_.reset();
   bokeh_.reset();
-}
-
-void Viewer::clear(const render::View& view, unsigned framebuffer) {
-  gl_->renderer.draw(view, {}, render::Settings{}, framebuffer);
 }
 
 void Viewer::draw(const LightFieldPicture& shown, const render::View& view, unsigned framebuffer,

@@ -26,10 +26,13 @@ class Viewer {
  public:
   Viewer(const hal::Clock& clock, const config::Render& options, render::Estimating estimating);
 
-  /// Before anything is drawn: makes what lives in the context that is current, and compiles what
-  /// views of pictures taken by `live` will need. `framebuffer` is drawn into.
-  void begin_drawing(const render::View& view, const std::shared_ptr<const geometry::Camera>& live,
-                     unsigned framebuffer);
+  /// Before anything is drawn: makes what lives in the context that is current.
+  void begin_drawing();
+
+  /// Has the next of the shaders compiled that views of pictures taken by `live` will need, and
+  /// draws into `framebuffer` to that end, until there are all.
+  void prepare_next(const render::View& view, const std::shared_ptr<const geometry::Camera>& live,
+                    unsigned framebuffer);
 
   /// Ends what lives in the context; what was learned stays.
   void end_drawing();
@@ -42,9 +45,6 @@ class Viewer {
   /// Uploads one picture ahead of its first use.
   void upload(const lightfield::Perspective& perspective) { gl_->renderer.upload(perspective); }
 
-  /// Black.
-  void clear(const render::View& view, unsigned framebuffer);
-
   /// What the last view was drawn with and what that took, for the screen's figures.
   const std::string& figures() const { return figures_; }
 
@@ -54,6 +54,7 @@ class Viewer {
     Gl(const config::Render& options, render::ReadAhead* ahead) : renderer(options, ahead) {}
 
     render::Renderer renderer;
+    bool prepared = false;
     render::Canvas moving;  ///< the last view that moved, if it was drawn small
     render::Canvas refined;
     render::LightMean mean;

@@ -49,40 +49,47 @@ class Renderer::Impl {
 
   void upload(const Perspective& perspective) { supply_.upload(perspective); }
 
-  void prepare(const View& view, const std::shared_ptr<const geometry::Camera>& source,
-               unsigned framebuffer) {
-    Perspective black;
-    black.world_from_camera = view.world_from_camera;
-    black.camera = source;
-    black.photo = std::make_shared<lightfield::Photo>(
-        std::make_shared<const hal::Image>(source->width(), source->height(), 3));
-    const Eigen::Vector3d focus = view.world_from_camera * Eigen::Vector3d::UnitZ().eval();
-    for (const Settings& settings : all_settings(view, black, focus)) {
-      const SuppliedView supplied = supply_.supply(view, {black}, settings);
-      LayerData data = fill_uniforms(supplied, {black}, view, settings);
-      for (const bool horizon : {false, true}) {
-        data.kind.horizon = horizon;  // what the place of a view decides
-        draw_layers(data, supplied, view, settings, framebuffer, std::nullopt);
-        if (!data.kind.tiles()) continue;
-        LayerData brighter = data;
-        brighter.layers.front().from_1[3] = 2.0F;
-        draw_layers(brighter, supplied, view, settings, framebuffer, std::nullopt);
-      }
+  bool prepare_next(const View& view, const std::shared_ptr<const geometry::Camera>& source,
+                    unsigned framebuffer) {
+    if (prepared_ == kToPrepare) {
+      black_.reset();
+      return false;
     }
+    if (!black_) {
+      black_.emplace();
+      black_->camera = source;
+      black_->photo = std::make_shared<lightfield::Photo>(
+          std::make_shared<const hal::Image>(source->width(), source->height(), 3));
+    }
+    black_->world_from_camera = view.world_from_camera;
+    const Eigen::Vector3d focus = view.world_from_camera * Eigen::Vector3d::UnitZ().eval();
+    const Settings settings = settings_to_prepare(view, *black_, focus);
+    const SuppliedView supplied = supply_.supply(view, {*black_}, settings);
+    LayerData data = fill_uniforms(supplied, {*black_}, view, settings);
+    data.kind.horizon = prepared_ % 2 == 1;  // what the place of a view decides
+    draw_layers(data, supplied, view, settings, framebuffer, std::nullopt);
+    if (data.kind.tiles()) {
+      data.layers.front().from_1[3] = 2.0F;  // brighter than it is
+      draw_layers(data, supplied, view, settings, framebuffer, std::nullopt);
+    }
+    ++prepared_;
+    return true;
   }
 
  private:
-  /// Of each aperture on planes, and on a shape: one that is everywhere as far as the focus.
-  std::vector<Settings> all_settings(const View& view, const Perspective& perspective,
-                                     const Eigen::Vector3d& focus) const {
-    std::vector<Settings> all = {settings_from(options_, Aperture::Small, focus),
-                                 settings_from(options_, Aperture::Wide, focus),
-                                 settings_from(options_, Aperture::Small, focus)};
-    const auto map = estimate_depth(perspective, {}, focus);
-    if (!map) return all;
-    all.back().shape = std::make_shared<Shape>(DepthGrid(view, {}, 1.0),
+  /// The small aperture on planes, the wide one, and on a shape: one that is everywhere as far as
+  /// the focus. Each without and with a horizon.
+  static constexpr int kToPrepare = 6;
+  Settings settings_to_prepare(const View& view, const Perspective& perspective,
+                               const Eigen::Vector3d& focus) const {
+    const bool wide = prepared_ / 2 == 1, shape = prepared_ / 2 == 2;
+    Settings settings = settings_from(options_, wide ? Aperture::Wide : Aperture::Small, focus);
+    if (!shape) return settings;
+    if (const auto map = estimate_depth(perspective, {}, focus)) {
+      settings.shape = std::make_shared<Shape>(DepthGrid(view, {}, 1.0),
                                                std::vector{std::make_shared<const DepthMap>(*map)});
-    return all;
+    }
+    return settings;
   }
 
   void draw_layers(const LayerData& data, const SuppliedView& supplied, const View& view,
@@ -196,6 +203,8 @@ class Renderer::Impl {
   gl::Texture shape_;  ///< inverse depths of the view drawn last
   TilePainter tile_painter_;
   std::array<std::optional<LayerProgram>, Kind::kCount> programs_;
+  int prepared_ = 0;                  ///< of kToPrepare
+  std::optional<Perspective> black_;  ///< what they are drawn with
 };
 
 Renderer::Renderer(const config::Render& options, ReadAhead* ahead)
@@ -207,9 +216,9 @@ bool Renderer::draw(const View& view, const std::vector<Perspective>& perspectiv
   return impl_->draw(view, perspectives, settings, framebuffer, rows);
 }
 
-void Renderer::prepare(const View& view, const std::shared_ptr<const geometry::Camera>& source,
-                       unsigned framebuffer) {
-  impl_->prepare(view, source, framebuffer);
+bool Renderer::prepare_next(const View& view, const std::shared_ptr<const geometry::Camera>& source,
+                            unsigned framebuffer) {
+  return impl_->prepare_next(view, source, framebuffer);
 }
 
 void Renderer::upload(const Perspective& perspective) {

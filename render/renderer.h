@@ -40,11 +40,12 @@ class Renderer {
   /// Uploads one picture ahead of its first use, so that the tick that reviews does not pay for it.
   void upload(const lightfield::Perspective& perspective);
 
-  /// Has the driver translate what views like this, from anywhere, of pictures of `source` can
-  /// need, or the first of them would wait for it. Drivers do that when they first draw, so this
-  /// draws into `framebuffer`: what was in it is lost.
-  void prepare(const View& view, const std::shared_ptr<const geometry::Camera>& source,
-               unsigned framebuffer);
+  /// Has the driver translate the next of the shaders that views like this, from anywhere, of
+  /// pictures of `source` can need, or the first of them would wait for it. Drivers do that when
+  /// they first draw, so this draws into `framebuffer`: what was in it is lost. False, and nothing
+  /// is drawn, if there is none left.
+  bool prepare_next(const View& view, const std::shared_ptr<const geometry::Camera>& source,
+                    unsigned framebuffer);
 
  private:
   class Impl;

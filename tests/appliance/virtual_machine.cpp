@@ -193,10 +193,11 @@ bool VirtualMachine::off(int options) {
 }
 
 bool VirtualMachine::shut_down() {
-  ask_qemu("system_powerdown");
   const auto end = std::chrono::steady_clock::now() + kPatience;
-  while (!off(WNOHANG)) {
+  for (int i = 0; !off(WNOHANG); ++i) {
     if (std::chrono::steady_clock::now() > end) return false;
+    // Again and again: a system that is only starting does not hear it.
+    if (i % 100 == 0) ask_qemu("system_powerdown");
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   return true;

@@ -233,7 +233,9 @@ TEST_F(PictureSupplyTest, NoViewOfOneCameraNeedsAShaderThatPrepareHasNotCompiled
     const auto perspectives = test::random_capture(
         test::textured_ball(1.0), test::make_camera(80, 60, distorted), 6, 4.0, 1.0, 2);
     Renderer renderer;
-    renderer.prepare(view_at(0.0), perspectives.front().camera, display_->framebuffer());
+    while (renderer.prepare_next(view_at(0.0), perspectives.front().camera,
+                                 display_->framebuffer())) {
+    }
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     const std::size_t prepared = programs();
     ProxyGeometry proxy({}, Estimating::AtOnce);
