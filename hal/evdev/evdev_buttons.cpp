@@ -29,6 +29,7 @@ EvdevButtons::EvdevButtons(std::string wanted, const config::Evdev& options, dou
   if (devices_.empty() && refusal) {
     throw config::InputError("devices.buttons: evdev:" + wanted_ + ": " + *refusal);
   }
+  if (const auto missing = missing_device()) config::log_warning("buttons: " + *missing);
 }
 
 std::vector<ButtonEvent> EvdevButtons::poll() {
@@ -59,11 +60,14 @@ void EvdevButtons::drop_gone(std::int64_t now_ns) {
 
 std::optional<std::string> EvdevButtons::error() const {
   std::vector<std::optional<std::string>> errors;
-  if (devices_.empty() && !wants_any()) {
-    errors.push_back(wanted_ + " is not there; waiting for it");
-  }
+  errors.push_back(missing_device());
   for (const auto& [path, device] : devices_) errors.push_back(device->error());
   return joined(errors);
+}
+
+std::optional<std::string> EvdevButtons::missing_device() const {
+  if (!devices_.empty() || wants_any()) return std::nullopt;
+  return wanted_ + " is not there; waiting for it";
 }
 
 /// Takes what is new and wanted; why something cannot be had, if that is news.

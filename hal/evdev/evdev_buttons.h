@@ -47,6 +47,7 @@ class EvdevButtons : public Buttons {
   std::optional<std::string> look(std::int64_t now_ns);
   std::string try_to_open(const std::filesystem::path& path, const Identity& identity,
                           std::int64_t now_ns);
+  std::optional<std::string> missing_device() const;
   void drop_gone(std::int64_t now_ns);
 
   std::string wanted_;

@@ -51,6 +51,11 @@ config::InputError no_such_line(const LineRequest& request, int error) {
                               "); expected a name, or CHIP:OFFSET, as gpioinfo lists it");
 }
 
+config::InputError no_such_offset(const LineRequest& request, std::size_t lines) {
+  return refusal(request, "chip \"" + place_of(request).chip + "\" has " + std::to_string(lines) +
+                              " lines; expected an offset below that, as gpioinfo lists it");
+}
+
 config::InputError not_given(const LineRequest& request, int error, const char* user) {
   if (error == EBUSY) {
     const bool known = user != nullptr && *user != '\0';

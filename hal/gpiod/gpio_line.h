@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -66,6 +67,7 @@ LinePlace place_of(const LineRequest& request);
 /// Says why a line is refused: `error` is an errno, `user` who has the line if that is known.
 config::InputError no_such_chip(const LineRequest& request, int error);
 config::InputError no_such_line(const LineRequest& request, int error);
+config::InputError no_such_offset(const LineRequest& request, std::size_t lines);  ///< of its chip
 config::InputError not_given(const LineRequest& request, int error, const char* user);
 
 }  // namespace lumibox::hal

@@ -39,6 +39,10 @@ OpenLine find(const LineRequest& request) {
     if (!found.chip) {
       throw no_such_chip(request, errno);
     }
+    const unsigned lines = gpiod_chip_num_lines(found.chip.get());
+    if (place.offset >= lines) {
+      throw no_such_offset(request, lines);
+    }
     found.line = gpiod_chip_get_line(found.chip.get(), place.offset);
   }
   if (found.line == nullptr) {

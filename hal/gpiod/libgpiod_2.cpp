@@ -76,6 +76,10 @@ FoundLine find(const LineRequest& request) {
   if (!found) {
     throw place.chip.empty() ? no_such_line(request, error) : no_such_chip(request, error);
   }
+  const ChipInfo info(gpiod_chip_get_info(found->chip.get()));
+  if (info && found->offset >= gpiod_chip_info_get_num_lines(info.get())) {
+    throw no_such_offset(request, gpiod_chip_info_get_num_lines(info.get()));
+  }
   return *std::move(found);
 }
 

@@ -217,12 +217,21 @@ TEST_F(Evdev, WhatIsPluggedInLaterIsTaken) {
 
 TEST_F(Evdev, ANamedDeviceMayComeLaterAndTheScreenSaysThatItIsMissing) {
   const std::filesystem::path path = folder_ / "event3";
+  ::testing::internal::CaptureStdout();
   const auto buttons = open(path.string());
   EXPECT_THAT(buttons->error(), Optional(HasSubstr(path.string() + " is not there")));
+  for (int i = 0; i < 5; ++i) {
+    wait_ms(1100);
+    buttons->poll();
+  }
   const auto keyboard = plug_in("event3", "A keyboard");
   wait_ms(1100);
   buttons->poll();
   EXPECT_EQ(buttons->error(), std::nullopt);
+  const std::string said = ::testing::internal::GetCapturedStdout();
+  EXPECT_THAT(said, HasSubstr("buttons: " + path.string() + " is not there; waiting for it"));
+  EXPECT_EQ(said.find("is not there"), said.rfind("is not there")) << "once";
+  EXPECT_THAT(said, HasSubstr("buttons: A keyboard (" + path.string() + ")"));
 }
 
 TEST_F(Evdev, IsForTheBoxAloneIfSoConfigured) {

@@ -88,6 +88,10 @@ gpiod_chip* gpiod_chip_open_lookup(const char* descr) {
   return fails<gpiod_chip*>(ENOENT, nullptr);
 }
 
+unsigned int gpiod_chip_num_lines(gpiod_chip* chip) {
+  return static_cast<unsigned int>(chip->lines.size());
+}
+
 gpiod_line* gpiod_chip_get_line(gpiod_chip* chip, unsigned int offset) {
   return offset < chip->lines.size() ? &chip->lines[offset] : fails<gpiod_line*>(EINVAL, nullptr);
 }

@@ -22,6 +22,7 @@ struct gpiod_chip {
 struct gpiod_chip_info {
   std::string name;
   std::string label;
+  std::size_t lines;
 };
 
 struct gpiod_line_info {
@@ -123,7 +124,7 @@ void gpiod_chip_close(gpiod_chip* chip) {
 }
 
 gpiod_chip_info* gpiod_chip_get_info(gpiod_chip* chip) {
-  return made(new gpiod_chip_info{chip->chip->name, chip->chip->label});
+  return made(new gpiod_chip_info{chip->chip->name, chip->chip->label, chip->chip->lines.size()});
 }
 
 void gpiod_chip_info_free(gpiod_chip_info* info) {
@@ -132,6 +133,10 @@ void gpiod_chip_info_free(gpiod_chip_info* info) {
 
 const char* gpiod_chip_info_get_name(gpiod_chip_info* info) {
   return info->name.c_str();
+}
+
+std::size_t gpiod_chip_info_get_num_lines(gpiod_chip_info* info) {
+  return info->lines;
 }
 
 const char* gpiod_chip_info_get_label(gpiod_chip_info* info) {

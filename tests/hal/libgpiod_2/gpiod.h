@@ -65,6 +65,7 @@ gpiod_chip_info* gpiod_chip_get_info(gpiod_chip* chip);
 void gpiod_chip_info_free(gpiod_chip_info* info);
 const char* gpiod_chip_info_get_name(gpiod_chip_info* info);
 const char* gpiod_chip_info_get_label(gpiod_chip_info* info);
+size_t gpiod_chip_info_get_num_lines(gpiod_chip_info* info);
 int gpiod_chip_get_line_offset_from_name(gpiod_chip* chip, const char* name);
 
 gpiod_line_info* gpiod_chip_get_line_info(gpiod_chip* chip, unsigned int offset);
