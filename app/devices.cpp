@@ -149,6 +149,11 @@ std::unique_ptr<hal::Buttons> open_buttons(const config::Config& config, const h
   std::istringstream kinds(config.devices.buttons + ",");
   for (std::string kind; std::getline(kinds >> std::ws, kind, ',');) {
     kind.erase(kind.find_last_not_of(' ') + 1);
+    if (kind.empty()) {
+      throw config::InputError("devices.buttons: \"" + config.devices.buttons +
+                               "\" names nothing before or after a comma; expected e.g. none, or "
+                               "gpio, evdev:any");
+    }
     sources.push_back(open_buttons_of(kind, config, clock));
   }
   return std::make_unique<hal::MergedButtons>(std::move(sources));

@@ -72,11 +72,15 @@ TEST(Devices, ButtonsAndALampThatAreNotThereAreNamed) {
   EXPECT_THAT(complaint(config), HasSubstr("\"evdev\" without a name; expected evdev:any"));
   config.devices.buttons = "evdev:" + recording.dir().write("a file", "").string();
   EXPECT_THAT(complaint(config), HasSubstr("expected an input device"));
-  for (const char* buttons : {"", "gpio:4", "none,", "mouse"}) {
+  for (const char* buttons : {"gpio:4", "mouse", "none, mouse"}) {
     config.devices.buttons = buttons;
     EXPECT_THAT(complaint(config), AllOf(HasSubstr("devices.buttons"),
                                          HasSubstr("not in this build"), HasSubstr("evdev:any")))
         << buttons;
+  }
+  for (const std::string buttons : {"", ",", "none,", "none,,none", " "}) {
+    config.devices.buttons = buttons;
+    EXPECT_THAT(complaint(config), HasSubstr("devices.buttons: \"" + buttons + "\" names nothing"));
   }
   config.devices.buttons = "none";
   config.devices.status_led = "gpio:no such line";
