@@ -50,9 +50,10 @@ void Loop::run(const std::function<bool()>& go_on) {
   } while (go_on());
 }
 
-void Loop::run_and_finish(const std::function<bool()>& go_on) {
+void Loop::run_and_finish(const std::function<bool()>& go_on, const std::function<void()>& over) {
   Attempts attempts;
   attempts.attempt([&] { run(go_on); });
+  attempts.attempt(over);
   attempts.attempt([&] { finish(); });
   attempts.rethrow();
 }
@@ -109,6 +110,7 @@ void Loop::light(const Decision& decision, const Moment& moment) {
 
 void Loop::show(Picture picture) {
   picture_ = std::move(picture);
+  picture_.alerts.insert(picture_.alerts.end(), standing_alerts_.begin(), standing_alerts_.end());
   if (devices_.camera->state() == hal::CameraState::Lost) {
     picture_.alerts.emplace_back("the camera is gone; waiting for it");
   }

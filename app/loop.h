@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/devices.h"
@@ -38,11 +39,16 @@ class Loop {
   Loop(Devices& devices, const config::Config& config, std::filesystem::path captures,
        Threading threading, std::optional<SavedCapture> saved = std::nullopt);
 
+  /// Has this shown among the alerts of every picture.
+  void always_show(std::string alert) { standing_alerts_.push_back(std::move(alert)); }
+
   /// Ticks at the configured rate as long as `go_on` says so after each.
   void run(const std::function<bool()>& go_on);
 
-  /// The same, then finish(), also when a tick throws: what is recorded by then is kept.
-  void run_and_finish(const std::function<bool()>& go_on);
+  /// The same, then finish(), also when a tick throws: what is recorded by then is kept. `over` is
+  /// called between the two, since the latter takes a while.
+  void run_and_finish(
+      const std::function<bool()>& go_on, const std::function<void()>& over = [] {});
 
   void tick();
 
@@ -79,6 +85,7 @@ class Loop {
   Screen screen_;
   render::LiveQuality quality_;
   Picture picture_;
+  std::vector<std::string> standing_alerts_;
   bool exposure_held_ = false;
   Lamp lamp_;
   double work_ms_ = 0.0;  ///< of the tick before

@@ -53,7 +53,8 @@ void Waiting::say() {
 }
 
 void Waiting::show() {
-  picture_.alerts = {devices_.missing};
+  picture_.alerts = standing_alerts_;
+  picture_.alerts.push_back(devices_.missing);
   if (const auto error = devices_.buttons->error()) {
     picture_.alerts.push_back("buttons: " + *error);
   }

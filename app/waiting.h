@@ -2,6 +2,9 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "app/devices.h"
 #include "app/picture.h"
@@ -16,6 +19,9 @@ class Waiting {
  public:
   /// `devices` must outlive the object; only the camera and the display may be missing.
   Waiting(Devices& devices, const config::Config& config);
+
+  /// Has this shown among the alerts of every picture.
+  void always_show(std::string alert) { standing_alerts_.push_back(std::move(alert)); }
 
   /// Whether the box has both.
   bool over() const { return devices_.missing.empty(); }
@@ -38,6 +44,7 @@ class Waiting {
   config::Render options_;
   std::optional<Screen> screen_;
   Picture picture_;
+  std::vector<std::string> standing_alerts_;
   std::int64_t look_again_ns_;
   std::int64_t unseen_ = 0;
 };

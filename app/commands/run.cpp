@@ -28,6 +28,13 @@ void print(const Loop& loop) {
               loop.recorder().light_field().perspectives().size());
 }
 
+constexpr const char* kOnLastGood = "on the last good settings: ";
+
+/// For the service manager, which has one line.
+std::string status_of(const OpenBox& box, const Picture& picture) {
+  return (box.problem ? kOnLastGood : "") + picture.title;
+}
+
 /// What happens between two ticks: the service manager is told how the box is, and settings with
 /// which pictures came on the screen are kept.
 class Caretaker {
@@ -40,21 +47,15 @@ class Caretaker {
   /// False if the box is to end.
   bool go_on() {
     const std::int64_t presented = box_.devices.display->presented();
-    service_.tick(box_.devices.clock->now_ns(), presented, status());
+    service_.tick(box_.devices.clock->now_ns(), presented, status_of(box_, loop_.picture()));
     if (keeps_settings_ && presented > 0) {
       keep_last_good(box_.settings, *options_.last_good);
       keeps_settings_ = false;
     }
-    const bool goes_on = stop_asked == 0 && box_.devices.camera->state() != hal::CameraState::Ended;
-    if (!goes_on) service_.stopping();
-    return goes_on;
+    return stop_asked == 0 && box_.devices.camera->state() != hal::CameraState::Ended;
   }
 
  private:
-  std::string status() const {
-    return (box_.problem ? "on the last good settings: " : "") + loop_.picture().title;
-  }
-
   const RunOptions& options_;
   const OpenBox& box_;
   const Loop& loop_;
@@ -65,11 +66,12 @@ class Caretaker {
 /// Until the box has its screen and its camera; false if it is to end before.
 bool wait_for_devices(OpenBox& box, Service& service) {
   Waiting waiting(box.devices, box.config);
+  if (box.problem) waiting.always_show(kOnLastGood + *box.problem);
   hal::Clock& clock = *box.devices.clock;
   Metronome metronome(clock, box.config.loop.rate_hz);
   while (!waiting.over() && stop_asked == 0) {
     waiting.tick();
-    service.tick(clock.now_ns(), waiting.presented(), waiting.picture().title);
+    service.tick(clock.now_ns(), waiting.presented(), status_of(box, waiting.picture()));
     metronome.wait();
   }
   return waiting.over();
@@ -84,15 +86,17 @@ void run(const RunOptions& options) {
   OpenBox box = open_box(options.sources, options.last_good);
   make_folder(box.config.capture.folder);
   Service service;
-  if (!wait_for_devices(box, service)) return;
+  if (!wait_for_devices(box, service)) return service.stopping();
   const geometry::Camera camera(box.devices.camera->profile());
   Loop loop(
       box.devices, box.config, box.config.capture.folder,
       box.devices.lockstep ? kLockstep : kThreaded,
       find_saved_capture(box.config.capture.folder, camera, box.config.tracking.pyramid_levels));
+  if (box.problem) loop.always_show(kOnLastGood + *box.problem);
   Caretaker caretaker(options, box, loop, service);
   Attempts attempts;  // what the run came to is said whatever went wrong
-  attempts.attempt([&] { loop.run_and_finish([&] { return caretaker.go_on(); }); });
+  attempts.attempt(
+      [&] { loop.run_and_finish([&] { return caretaker.go_on(); }, [&] { service.stopping(); }); });
   print(loop);
   attempts.rethrow();
 }

@@ -5,14 +5,17 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "hal/image_io.h"
 #include "support/other_process.h"
 #include "support/recording.h"
+#include "support/service_manager.h"
 #include "support/small_scene.h"
 #include "support/source_file.h"
 #include "support/temp_dir.h"
@@ -114,6 +117,43 @@ TEST(CommandLine, WrongUseExitsWithTwo) {
     const Outcome outcome = lumibox(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments;
     EXPECT_FALSE(outcome.err.empty()) << arguments;
+  }
+}
+
+/// A run without a screen, whose captures go into the folder.
+std::string run_on(const std::string& camera, const std::string& display, const TempDir& dir) {
+  return "run --set devices.camera=" + camera + " --set devices.display=" + display +
+         " --set capture.folder=" + (dir / "captures").string();
+}
+
+TEST(CommandLine, TheServiceManagerIsToldOfAnEndThatIsAnError) {
+  const Recording recording;
+  const TempDir dir;
+  const testing::ServiceManager manager((dir / "notify").string());
+  recording.dir().write(Recording::name(3), "no picture");
+  EXPECT_COMPLAINT(lumibox(run_on("replay:" + recording.folder().string(), "offscreen:64x48", dir) +
+                           " --set devices.clock=virtual"),
+                   HasSubstr(Recording::name(3)));
+  EXPECT_THAT(manager.heard(), AllOf(HasSubstr("READY=1"), HasSubstr("STOPPING=1")));
+}
+
+// As long as it takes; the service manager must not think that the start failed.
+TEST(CommandLine, ABoxWithoutItsCameraOrItsScreenIsReadyAndWaits) {
+  const Recording recording;
+  const std::string replay = "replay:" + recording.folder().string();
+  for (const auto& [camera, display] : {std::pair("v4l2:/nowhere/video", "offscreen:64x48"),
+                                        std::pair(replay.c_str(), "kms:/nowhere/card0")}) {
+    const TempDir dir;
+    const testing::ServiceManager manager((dir / "notify").string());
+    const std::string pid = (dir / "pid").string();
+    const std::string command = std::string(LUMIBOX_EXECUTABLE) + " " +
+                                run_on(camera, display, dir) + " >" + (dir / "log").string() +
+                                " & echo $! >" + pid;
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    EXPECT_THAT(manager.heard_until("READY=1"), HasSubstr("STATUS=no ")) << camera;
+    kill(std::stoi(read_text(pid)), SIGTERM);
+    EXPECT_THAT(manager.heard_until("STOPPING=1"), HasSubstr("STOPPING=1")) << camera;
+    EXPECT_THAT(read_text(dir / "log"), HasSubstr("waiting: ")) << camera;
   }
 }
 

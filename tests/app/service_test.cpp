@@ -3,14 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
-#include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 
-#include <array>
 #include <cstdlib>
-#include <cstring>
 
+#include "support/service_manager.h"
 #include "support/temp_dir.h"
 
 namespace lumibox::app {
@@ -77,43 +74,11 @@ RC_GTEST_PROP(ServiceReportProperty, ABoxThatIsWellIsNeverRestarted, ()) {
   }
 }
 
-/// A service manager that listens.
-class Manager {
- public:
-  explicit Manager(const std::string& name) : socket_(socket(AF_UNIX, SOCK_DGRAM, 0)) {
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    std::memcpy(address.sun_path, name.data(), name.size());
-    if (name.front() == '@') address.sun_path[0] = '\0';
-    const auto length = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + name.size());
-    EXPECT_EQ(bind(socket_, reinterpret_cast<sockaddr*>(&address), length), 0) << name;
-    setenv("NOTIFY_SOCKET", name.c_str(), 1);
-  }
-  ~Manager() {
-    close(socket_);
-    for (const char* variable : {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"}) {
-      unsetenv(variable);
-    }
-  }
-  Manager(const Manager&) = delete;
-  Manager& operator=(const Manager&) = delete;
-
-  /// What was said since the last call; empty if nothing.
-  std::string heard() const {
-    std::array<char, 512> text{};
-    const ssize_t length = recv(socket_, text.data(), text.size(), MSG_DONTWAIT);
-    return length < 0 ? std::string() : std::string(text.data(), static_cast<std::size_t>(length));
-  }
-
- private:
-  int socket_;
-};
-
 TEST(Service, TellsTheManagerThatStartedIt) {
   const testing::TempDir dir;
   for (const std::string& name :
        {(dir / "notify").string(), "@lumibox-test-" + std::to_string(getpid())}) {
-    const Manager manager(name);
+    const testing::ServiceManager manager(name);
     setenv("WATCHDOG_USEC", "3000000", 1);
     setenv("WATCHDOG_PID", std::to_string(getpid()).c_str(), 1);
     Service service;
@@ -129,7 +94,7 @@ TEST(Service, TellsTheManagerThatStartedIt) {
 }
 
 TEST(Service, AnotherProcessIsWatchedAndNotThisOne) {
-  const Manager manager("@lumibox-other-" + std::to_string(getpid()));
+  const testing::ServiceManager manager("@lumibox-other-" + std::to_string(getpid()));
   setenv("WATCHDOG_USEC", "3000000", 1);
   setenv("WATCHDOG_PID", "1", 1);
   Service service;

@@ -141,6 +141,15 @@ TEST_F(WaitingTest, WithNeitherFirstTheScreenMayCome) {
   EXPECT_TRUE(waiting_->over());
 }
 
+TEST_F(WaitingTest, SaysWhatElseIsWrong) {
+  webcam_->unplug();
+  begin();
+  waiting_->always_show("on the last good settings: lumibox.toml:2: no TOML");
+  pass(2);
+  EXPECT_THAT(waiting_->picture().alerts,
+              ElementsAre(HasSubstr("lumibox.toml:2"), HasSubstr("no camera found")));
+}
+
 TEST_F(WaitingTest, WhatIsPressedMeanwhileIsForgotten) {
   webcam_->unplug();
   begin();

@@ -245,10 +245,27 @@ TEST(Box, TwoRunsLeaveTheSameBytes) {
   }
 }
 
+TEST(Box, WhatIsAlwaysWrongIsOnEveryPicture) {
+  const TempDir dir;
+  BoxRun run({}, dir.path());
+  run.loop().always_show("on the last good settings: lumibox.toml:2: no TOML");
+  for (const double time_s : {0.1, 1.0}) {
+    run.until(time_s);
+    ASSERT_EQ(run.loop().picture().alerts.size(), 1U);
+    EXPECT_NE(run.loop().picture().alerts.front().find("lumibox.toml:2"), std::string::npos);
+  }
+}
+
 TEST(Box, WhatIsRecordedBeforeTheCameraFailsIsFinished) {
   const TempDir dir;
   BoxRun run(kCapture, dir.path(), 4.5);
-  EXPECT_THROW(run.loop().run_and_finish([] { return true; }), config::InputError);
+  int over = 0;
+  const auto still_under_way = [&] {
+    ++over;
+    EXPECT_TRUE(lightfield::load_capture(dir / "capture-0001").points.empty());
+  };
+  EXPECT_THROW(run.loop().run_and_finish([] { return true; }, still_under_way), config::InputError);
+  EXPECT_EQ(over, 1) << "the service manager is told before what may take longer than it waits";
   const auto capture = lightfield::load_capture(dir / "capture-0001");
   EXPECT_EQ(capture.light_field.perspectives().size(), run.views());
   EXPECT_FALSE(capture.points.empty());
