@@ -148,7 +148,7 @@ TEST(CommandLine, ABoxWithoutItsCameraOrItsScreenIsReadyAndWaits) {
     const std::string pid = (dir / "pid").string();
     const std::string command = std::string(LUMIBOX_EXECUTABLE) + " " +
                                 run_on(camera, display, dir) + " >" + (dir / "log").string() +
-                                " & echo $! >" + pid;
+                                " 2>&1" + " & echo $! >" + pid;
     ASSERT_EQ(std::system(command.c_str()), 0);
     EXPECT_THAT(manager.heard_until("READY=1"), HasSubstr("STATUS=no ")) << camera;
     kill(std::stoi(read_text(pid)), SIGTERM);
