@@ -24,6 +24,8 @@
 #include "hal/sim/virtual_clock.h"
 #include "hal/system_clock.h"
 #include "hal/v4l2/v4l2_camera.h"
+#include "hal/window/window_buttons.h"
+#include "hal/window/window_display.h"
 
 namespace lumibox::app {
 namespace {
@@ -119,8 +121,21 @@ void refuse_virtual_clock(const std::string& kind, const config::Config& config)
   }
 }
 
+/// What is typed into the window of the display.
+std::unique_ptr<hal::Buttons> open_window_buttons(const config::Config& config,
+                                                  const hal::Clock& clock,
+                                                  const std::shared_ptr<hal::KeyEdges>& keys) {
+  refuse_virtual_clock("window", config);
+  if (split(config.devices.display).kind != "window") {
+    throw config::InputError("devices.buttons: \"window\" with devices.display = \"" +
+                             config.devices.display + "\"; expected \"window\" there too");
+  }
+  return std::make_unique<hal::WindowButtons>(keys, config.evdev, config.controls.stuck_s, clock);
+}
+
 std::unique_ptr<hal::Buttons> open_buttons_of(const std::string& text, const config::Config& config,
-                                              const hal::Clock& clock) {
+                                              const hal::Clock& clock,
+                                              const std::shared_ptr<hal::KeyEdges>& keys) {
   const Name name = split(text);
   const config::Controls& controls = config.controls;
   if (name.kind == "script") {
@@ -137,14 +152,18 @@ std::unique_ptr<hal::Buttons> open_buttons_of(const std::string& text, const con
     refuse_virtual_clock(name.kind, config);
     return std::make_unique<hal::EvdevButtons>(wanted, config.evdev, controls.stuck_s, clock);
   }
+  if (text == "window") {
+    return open_window_buttons(config, clock, keys);
+  }
   if (text == "none") {
     return std::make_unique<hal::ScriptedButtons>(std::vector<hal::ButtonEvent>{}, clock);
   }
-  refuse("buttons", text, "none, gpio, evdev:any, evdev:PATH, evdev:NAME and script:FILE");
+  refuse("buttons", text, "none, gpio, evdev:any, evdev:PATH, evdev:NAME, window and script:FILE");
 }
 
 /// One kind, or several with commas between.
-std::unique_ptr<hal::Buttons> open_buttons(const config::Config& config, const hal::Clock& clock) {
+std::unique_ptr<hal::Buttons> open_buttons(const config::Config& config, const hal::Clock& clock,
+                                           const std::shared_ptr<hal::KeyEdges>& keys) {
   std::vector<std::unique_ptr<hal::Buttons>> sources;
   std::istringstream kinds(config.devices.buttons + ",");
   for (std::string kind; std::getline(kinds >> std::ws, kind, ',');) {
@@ -154,7 +173,7 @@ std::unique_ptr<hal::Buttons> open_buttons(const config::Config& config, const h
                                "\" names nothing before or after a comma; expected e.g. none, or "
                                "gpio, evdev:any");
     }
-    sources.push_back(open_buttons_of(kind, config, clock));
+    sources.push_back(open_buttons_of(kind, config, clock, keys));
   }
   return std::make_unique<hal::MergedButtons>(std::move(sources));
 }
@@ -203,21 +222,35 @@ std::unique_ptr<hal::Display> open_screen(const std::string& card, const config:
   return std::make_unique<hal::KmsDisplay>(kms, clock);
 }
 
-std::unique_ptr<hal::Display> open_display(const std::string& text, const config::Display& options,
-                                           const hal::Clock& clock) {
-  const Name name = split(text);
-  if (name.kind == "kms") {
-    return open_screen(name.what, options, clock);
-  }
-  if (name.kind != "offscreen") {
-    refuse("display", text, "kms, kms:CARD and offscreen:WIDTHxHEIGHT");
+/// "offscreen:640x480" or "window:640x480"; a window without a size has that.
+std::pair<int, int> size_of(const Name& name) {
+  if (name.kind == "window" && name.what.empty()) {
+    return {640, 480};
   }
   const auto size = parse_size(name.what);
   if (!size) {
-    throw config::InputError("devices.display: \"" + text +
-                             "\" has no size; expected e.g. offscreen:640x480");
+    throw config::InputError("devices.display: \"" + name.kind + ":" + name.what +
+                             "\" has no size; expected e.g. " + name.kind + ":640x480");
   }
-  return std::make_unique<hal::OffscreenDisplay>(size->first, size->second);
+  return *size;
+}
+
+std::unique_ptr<hal::Display> open_display(const config::Config& config, const hal::Clock& clock,
+                                           const std::shared_ptr<hal::KeyEdges>& keys) {
+  const std::string& text = config.devices.display;
+  const Name name = split(text);
+  if (name.kind == "kms") {
+    return open_screen(name.what, config.display, clock);
+  }
+  if (name.kind != "offscreen" && name.kind != "window") {
+    refuse("display", text,
+           "kms, kms:CARD, window, window:WIDTHxHEIGHT and offscreen:WIDTHxHEIGHT");
+  }
+  const auto [width, height] = size_of(name);
+  if (name.kind == "window") {
+    return std::make_unique<hal::WindowDisplay>(width, height, keys, clock);
+  }
+  return std::make_unique<hal::OffscreenDisplay>(width, height);
 }
 
 }  // namespace
@@ -227,12 +260,13 @@ Devices open_devices(const config::Config& config) {
   Devices devices;
   devices.clock = open_clock(options.clock);
   devices.lockstep = options.clock == "virtual";
-  devices.buttons = open_buttons(config, *devices.clock);
+  const auto keys = std::make_shared<hal::KeyEdges>();  // kept by who listens to them
+  devices.buttons = open_buttons(config, *devices.clock, keys);
   devices.status_led = open_status_led(config);
   const hal::Clock& clock = *devices.clock;
   devices.open_camera = [config, &clock] { return open_camera(config, clock); };
-  devices.open_display = [config, &clock] {
-    auto display = open_display(config.devices.display, config.display, clock);
+  devices.open_display = [config, &clock, keys] {
+    auto display = open_display(config, clock, keys);
     display->make_current();
     return display;
   };

@@ -118,10 +118,10 @@ struct Devices {
   std::string clock = "system";  ///< system, or virtual: as fast as the work allows
   std::string camera;            ///< v4l2:DEVICE, sim:SCENE.toml, replay:SEQUENCE
   std::string calibration;       ///< of the camera, in place of a recording's own
-  /// none, or one or several of script:FILE, gpio, evdev:any, evdev:PATH, evdev:NAME; with commas
+  /// none, or, with commas, any of script:FILE, gpio, evdev:any, evdev:PATH, evdev:NAME, window
   std::string buttons = "none";
   std::string status_led = "none";            ///< none, or gpio:LINE
-  std::string display = "offscreen:640x480";  ///< offscreen:WIDTHxHEIGHT, kms or kms:CARD
+  std::string display = "offscreen:640x480";  ///< offscreen:, window:WIDTHxHEIGHT, kms:CARD
 };
 
 /// What is asked of a camera that is opened through v4l2.

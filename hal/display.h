@@ -33,6 +33,9 @@ class Display {
   /// A new context in place of one that is lost, current on the calling thread; names of objects in
   /// the old one mean nothing in it, so their owners must end before. Throws config::InputError.
   virtual void renew() = 0;
+
+  /// True once who looks has closed it: the run is to end. A screen cannot be closed.
+  virtual bool closed() const { return false; }
 };
 
 }  // namespace lumibox::hal

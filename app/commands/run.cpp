@@ -35,6 +35,11 @@ std::string status_of(const OpenBox& box, const Picture& picture) {
   return (box.problem ? kOnLastGood : "") + picture.title;
 }
 
+/// Whether the box is to end before its recording does.
+bool is_to_end(const Devices& devices) {
+  return stop_asked != 0 || (devices.display && devices.display->closed());
+}
+
 /// What happens between two ticks: the service manager is told how the box is, and settings with
 /// which pictures came on the screen are kept.
 class Caretaker {
@@ -52,7 +57,7 @@ class Caretaker {
       keep_last_good(box_.settings, *options_.last_good);
       keeps_settings_ = false;
     }
-    return stop_asked == 0 && box_.devices.camera->state() != hal::CameraState::Ended;
+    return !is_to_end(box_.devices) && box_.devices.camera->state() != hal::CameraState::Ended;
   }
 
  private:
@@ -69,7 +74,7 @@ bool wait_for_devices(OpenBox& box, Service& service) {
   if (box.problem) waiting.always_show(kOnLastGood + *box.problem);
   hal::Clock& clock = *box.devices.clock;
   Metronome metronome(clock, box.config.loop.rate_hz);
-  while (!waiting.over() && stop_asked == 0) {
+  while (!waiting.over() && !is_to_end(box.devices)) {
     waiting.tick();
     service.tick(clock.now_ns(), waiting.presented(), status_of(box, waiting.picture()));
     metronome.wait();

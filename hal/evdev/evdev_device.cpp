@@ -66,7 +66,11 @@ EvdevDevice::Opened EvdevDevice::open(const std::filesystem::path& path, const E
 }
 
 EvdevDevice::EvdevDevice(File file, const EvdevTerms& terms)
-    : file_(std::move(file)), device_(libevdev_new()), keys_(terms.keys), guard_(terms.stuck_s) {}
+    : file_(std::move(file)),
+      device_(libevdev_new()),
+      keys_(terms.keys),
+      held_(keys_),
+      guard_(terms.stuck_s) {}
 
 std::string EvdevDevice::name() const {
   return libevdev_get_name(device_.get());
@@ -75,7 +79,7 @@ std::string EvdevDevice::name() const {
 void EvdevDevice::begin(std::int64_t now_ns) {
   for (const auto& [code, button] : keys_) {
     if (libevdev_get_event_value(device_.get(), EV_KEY, code) != 0) {
-      held_.insert(code);
+      held_.take(code, true, now_ns);
       guard_.held_at_start(button, now_ns);
     }
   }
@@ -85,7 +89,7 @@ std::vector<ButtonEvent> EvdevDevice::poll(std::int64_t now_ns) {
   std::vector<ButtonEvent> edges;
   if (!gone_ && !read(now_ns, edges)) {
     gone_ = true;
-    for (const unsigned code : std::set(held_)) take(code, 0, now_ns, edges);
+    for (const ButtonEvent& edge : held_.release_all(now_ns)) edges.push_back(edge);
   }
   return guard_.pass(edges, now_ns);
 }
@@ -100,7 +104,10 @@ bool EvdevDevice::read(std::int64_t now_ns, std::vector<ButtonEvent>& edges) {
     const bool resyncing = status == LIBEVDEV_READ_STATUS_SYNC;
     if (resyncing || status == LIBEVDEV_READ_STATUS_SUCCESS) {
       if (event.type == EV_KEY) {
-        take(event.code, event.value, resyncing ? now_ns : time_of(event), edges);
+        const std::int64_t time_ns = resyncing ? now_ns : time_of(event);
+        if (const auto edge = held_.take(event.code, event.value != 0, time_ns)) {
+          edges.push_back(*edge);
+        }
       }
       if (resyncing) {
         flag = LIBEVDEV_READ_FLAG_SYNC;
@@ -110,30 +117,6 @@ bool EvdevDevice::read(std::int64_t now_ns, std::vector<ButtonEvent>& edges) {
     }
   }
   return true;
-}
-
-/// The kernel repeats a key that is held: that changes nothing.
-void EvdevDevice::take(unsigned code, int value, std::int64_t time_ns,
-                       std::vector<ButtonEvent>& edges) {
-  const auto key = keys_.find(code);
-  if (key == keys_.end()) {
-    return;
-  }
-  const Button button = key->second;
-  const bool was_down = is_down(button);
-  if (value != 0) {
-    held_.insert(code);
-  } else {
-    held_.erase(code);
-  }
-  if (was_down != is_down(button)) {
-    edges.push_back({button, was_down ? ButtonAction::Released : ButtonAction::Pressed, time_ns});
-  }
-}
-
-/// Two keys of one button are one.
-bool EvdevDevice::is_down(Button button) const {
-  return std::ranges::any_of(held_, [&](unsigned code) { return keys_.at(code) == button; });
 }
 
 }  // namespace lumibox::hal

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
+#include "hal/evdev/held_keys.h"
 #include "hal/evdev/key_map.h"
 #include "hal/hold_guard.h"
 #include "hal/owned.h"
@@ -55,13 +55,11 @@ class EvdevDevice {
   /// Finds out which keys are down before anybody has pressed them here.
   void begin(std::int64_t now_ns);
   bool read(std::int64_t now_ns, std::vector<ButtonEvent>& edges);
-  void take(unsigned code, int value, std::int64_t time_ns, std::vector<ButtonEvent>& edges);
-  bool is_down(Button button) const;
 
   File file_;
   std::unique_ptr<libevdev, Free> device_;
   KeyMap keys_;
-  std::set<unsigned> held_;  ///< keys
+  HeldKeys held_;
   HoldGuard guard_;
   bool gone_ = false;
 };

@@ -51,7 +51,7 @@ GLuint make_program() {
     GLsizei length = 0;
     glGetProgramInfoLog(program, static_cast<GLsizei>(log.size()), &length, log.data());
     log.resize(static_cast<std::size_t>(length));
-    throw config::InputError("display kms: the driver cannot turn pictures: " + log);
+    throw config::InputError("display: the driver cannot turn pictures: " + log);
   }
   return program;
 }
@@ -94,7 +94,7 @@ TurnedPicture::TurnedPicture(Size size) : size_(size), program_(make_program()) 
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_, 0);
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-    throw config::InputError("display kms: the driver draws no picture of " +
+    throw config::InputError("display: the driver draws no picture of " +
                              std::to_string(size.width) + "x" + std::to_string(size.height));
   }
   glGenVertexArrays(1, &vertex_array_);

@@ -97,11 +97,32 @@ TEST(Devices, HandsDoNotPressOnTheVirtualClock) {
   config::Config config;
   config.devices.camera = "replay:" + recording.folder().string();
   config.devices.clock = "virtual";
-  for (const char* buttons : {"gpio", "evdev:any", "none, evdev:A remote"}) {
+  for (const char* buttons : {"gpio", "evdev:any", "none, evdev:A remote", "window"}) {
     config.devices.buttons = buttons;
     EXPECT_THAT(complaint(config), AllOf(HasSubstr("devices.buttons"), HasSubstr("devices.clock"),
                                          HasSubstr("expected \"system\"")))
         << buttons;
+  }
+}
+
+TEST(Devices, KeysOfAWindowNeedTheWindow) {
+  const testing::Recording recording;
+  config::Config config;
+  config.devices.camera = "replay:" + recording.folder().string();
+  config.devices.buttons = "none, window";
+  EXPECT_THAT(complaint(config),
+              AllOf(HasSubstr("devices.buttons: \"window\""), HasSubstr("offscreen:640x480"),
+                    HasSubstr("expected \"window\" there too")));
+}
+
+TEST(Devices, SizesOfPicturesAreOnes) {
+  const testing::Recording recording;
+  config::Config config;
+  config.devices.camera = "replay:" + recording.folder().string();
+  for (const char* display : {"offscreen", "offscreen:640", "window:640x", "window:0x480"}) {
+    config.devices.display = display;
+    EXPECT_THAT(complaint(config), AllOf(HasSubstr("devices.display"), HasSubstr("has no size")))
+        << display;
   }
 }
 
@@ -135,7 +156,7 @@ TEST(Devices, TheScreenAndItsModeAreNamed) {
   config.display.mode = "huge";
   EXPECT_THAT(complaint(config),
               AllOf(HasSubstr("display.mode: \"huge\" is no mode"), HasSubstr("1280x720@60")));
-  config.devices.display = "window:640x480";
+  config.devices.display = "hologram:640x480";
   EXPECT_THAT(complaint(config), AllOf(HasSubstr("devices.display"), HasSubstr("kms:CARD")));
 }
 

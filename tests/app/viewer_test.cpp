@@ -44,7 +44,6 @@ class ViewerTest : public test::GlTest {
 
   std::unique_ptr<Viewer> make_viewer(const hal::Clock& clock) const {
     auto viewer = std::make_unique<Viewer>(clock, config::Render{}, render::Estimating::AtOnce);
-    const auto camera = std::make_shared<const geometry::Camera>(make_camera(160, 120));
     viewer->begin_drawing();
     return viewer;
   }
