@@ -25,7 +25,7 @@ class Faults : public ::testing::Test {
 
   static Box& box() { return *box_; }
   static VirtualMachine& guest() { return box_->machine(); }
-  /// Recording goes on, into the same capture.
+  /// Recording goes on, into the same capture; none of it is lost.
   static void expect_that_it_goes_on(int views_before) {
     box().expect_views(views_before + 1);
     EXPECT_EQ(guest().output("ls /var/lib/lumibox/captures | wc -l"), "1");
@@ -56,6 +56,22 @@ TEST_F(Faults, TheWebcamIsUnpluggedAndComesBack) {
   EXPECT_FALSE(guest().output("ls /dev").find("video20") != std::string::npos);
   box().look("fault-2-webcam-unplugged");
   box().play(1);
+  expect_that_it_goes_on(views);
+  EXPECT_EQ(restarts(), before);
+}
+
+/// The camera's picture is on the screen again.
+bool shows_the_film(const hal::Image& screen) {
+  return likeness_to_film(screen).best > 20.0;
+}
+
+TEST_F(Faults, AnotherConsoleAndBack) {
+  const int views = box().views(), before = restarts();
+  guest().type("ctrl-alt-f2");
+  EXPECT_TRUE(guest().becomes_true("grep -q tty2 /sys/class/tty/tty0/active"));
+  EXPECT_TRUE(box().comes_to_show([](const auto& screen) { return !shows_the_film(screen); }));
+  guest().type("ctrl-alt-f1");
+  EXPECT_TRUE(box().comes_to_show(shows_the_film));
   expect_that_it_goes_on(views);
   EXPECT_EQ(restarts(), before);
 }
