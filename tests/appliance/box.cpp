@@ -17,7 +17,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kCaptures = "/var/lib/lumibox/captures";
+/// Of the newest capture; 0 if there is none.
+constexpr const char* kCountViews =
+    "cat $(ls -d /var/lib/lumibox/captures/*/transforms.json 2>/dev/null | tail -n1) | "
+    "grep -c file_path";
 
 void run_here(const std::string& command) {
   if (std::system(command.c_str()) != 0) throw std::runtime_error(command + ": failed");
@@ -57,6 +60,13 @@ Box::Box(const std::string& name, VirtualMachine::Start start, const std::string
   // Room for captures, as a card has it.
   fs::resize_file(disk_, 4ULL << 30);
   machine_.emplace(settings_);
+}
+
+Box::~Box() {
+  machine_.reset();
+  const bool failed = ::testing::Test::HasFailure() ||
+                      ::testing::UnitTest::GetInstance()->failed_test_count() > 0;
+  if (!failed) fs::remove(disk_);
 }
 
 void Box::get_devices() {
@@ -112,16 +122,12 @@ void Box::expect_status(const std::string& words) {
 }
 
 int Box::views() {
-  return std::stoi(machine_
-                       ->run("cat $(ls -d " + std::string(kCaptures) +
-                             "/*/transforms.json | tail -n1) | grep -c file_path")
-                       .output);
+  return std::stoi(machine_->run(kCountViews).output);
 }
 
 void Box::expect_views(int at_least) {
-  const std::string count = "$(cat $(ls -d " + std::string(kCaptures) +
-                            "/*/transforms.json | tail -n1) | grep -c file_path)";
-  EXPECT_TRUE(machine_->becomes_true("[ " + count + " -ge " + std::to_string(at_least) + " ]"))
+  EXPECT_TRUE(machine_->becomes_true("[ $(" + std::string(kCountViews) + ") -ge " +
+                                     std::to_string(at_least) + " ]"))
       << "there are " << views() << " views; status: " << status();
 }
 

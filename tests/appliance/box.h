@@ -25,6 +25,10 @@ class Box {
   /// the files that it leaves behind.
   explicit Box(const std::string& name, VirtualMachine::Start start = VirtualMachine::Start::Kernel,
                const std::string& more_parameters = "");
+  ~Box();  ///< the disk stays only if a test has failed
+  Box(const Box&) = delete;
+  Box& operator=(const Box&) = delete;
+
   /// The webcam and the buttons come, and settings that name them. The box is started anew.
   void get_devices();
 

@@ -38,7 +38,7 @@ class VirtualMachine {
   explicit VirtualMachine(const Settings& settings);
   ~VirtualMachine();  ///< as cut_power()
 
-  /// The same program in the guest, by root. Not for programs that read their input.
+  /// A shell command in the guest, as root. Not for programs that read their input.
   CommandResult run(const std::string& command);
   /// The output of a command that is expected to succeed; throws std::runtime_error otherwise.
   std::string output(const std::string& command);
