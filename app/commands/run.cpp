@@ -30,9 +30,11 @@ void print(const Loop& loop) {
 
 constexpr const char* kOnLastGood = "on the last good settings: ";
 
-/// For the service manager, which has one line.
-std::string status_of(const OpenBox& box, const Picture& picture) {
-  return (box.problem ? kOnLastGood : "") + picture.title;
+/// For the service manager, which has one line: what the screen says at the top, and what is wrong.
+std::string status_of(const Picture& picture) {
+  std::string status = picture.title;
+  for (const std::string& alert : picture.alerts) status += "; " + alert;
+  return status;
 }
 
 /// Whether the box is to end before its recording does.
@@ -52,7 +54,7 @@ class Caretaker {
   /// False if the box is to end.
   bool go_on() {
     const std::int64_t presented = box_.devices.display->presented();
-    service_.tick(box_.devices.clock->now_ns(), presented, status_of(box_, loop_.picture()));
+    service_.tick(box_.devices.clock->now_ns(), presented, status_of(loop_.picture()));
     if (keeps_settings_ && presented > 0) {
       keep_last_good(box_.settings, *options_.last_good);
       keeps_settings_ = false;
@@ -76,7 +78,7 @@ bool wait_for_devices(OpenBox& box, Service& service) {
   Metronome metronome(clock, box.config.loop.rate_hz);
   while (!waiting.over() && !is_to_end(box.devices)) {
     waiting.tick();
-    service.tick(clock.now_ns(), waiting.presented(), status_of(box, waiting.picture()));
+    service.tick(clock.now_ns(), waiting.presented(), status_of(waiting.picture()));
     metronome.wait();
   }
   return waiting.over();

@@ -23,7 +23,7 @@ class Contracts : public ::testing::Test {
                           const std::string& filter) {
     const CommandResult result =
         guest().run("cd /tmp && " + environment + " /run/tools/" + program +
-                    " --gtest_brief=1 --gtest_filter='" + filter + "'");
+                    " --gtest_color=no --gtest_brief=1 --gtest_filter='" + filter + "'");
     EXPECT_EQ(result.status, 0) << result.output;
     EXPECT_NE(result.output.find("[  PASSED  ]"), std::string::npos) << result.output;
     EXPECT_EQ(result.output.find("SKIPPED"), std::string::npos) << result.output;

@@ -42,7 +42,7 @@ std::unique_ptr<Box> Faults::box_;
 TEST_F(Faults, TheFeederStallsAndGoesOn) {
   const int views = box().views(), before = restarts();
   guest().output("systemctl kill --signal=STOP webcam0");
-  box().expect_status("camera");
+  box().expect_status("the camera is gone");
   box().look("fault-1-webcam-stalled");
   guest().output("systemctl kill --signal=CONT webcam0");
   expect_that_it_goes_on(views);
@@ -52,7 +52,7 @@ TEST_F(Faults, TheFeederStallsAndGoesOn) {
 TEST_F(Faults, TheWebcamIsUnpluggedAndComesBack) {
   const int views = box().views(), before = restarts();
   guest().output("insmod /run/tools/pull_cable.ko device=/dev/video20");
-  box().expect_status("camera");
+  box().expect_status("the camera is gone");
   EXPECT_FALSE(guest().output("ls /dev").find("video20") != std::string::npos);
   box().look("fault-2-webcam-unplugged");
   box().play(1);
