@@ -75,7 +75,7 @@ std::unique_ptr<hal::Camera> open_webcam(const std::string& device, const config
     throw config::InputError("devices.clock: \"" + config.devices.clock +
                              "\" with a real camera; expected \"system\"");
   }
-  hal::V4l2Options options{device, std::nullopt, config.camera};
+  hal::CameraOptions options{device, std::nullopt, config.camera};
   if (!config.devices.calibration.empty()) {
     options.calibration = hal::read_calibration(config.devices.calibration);
   }

@@ -126,7 +126,7 @@ struct Devices {
 
 /// What is asked of a camera that is opened through v4l2.
 struct Camera {
-  std::string format = "auto";      ///< auto, yuyv, nv12, mjpeg, grey
+  std::string format = "auto";      ///< auto, or a name of hal/live/modes.h
   int width = 0;                    ///< pixels; 0: the calibration's, or 640 without one
   int height = 0;                   ///< pixels; 0: the calibration's, or 480 without one
   double rate_hz = 30.0;            ///< frames per second

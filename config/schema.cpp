@@ -441,7 +441,7 @@ std::vector<Key> schema(Config& c) {
        "name",
        0,
        0,
-       {"auto", "yuyv", "nv12", "mjpeg", "grey"},
+       {"auto", "yuyv", "nv12", "yuv420", "rgb", "bgr", "rgbx", "bgrx", "mjpeg", "grey"},
        "whichever serves size and rate best"},
       {"camera",
        "width",

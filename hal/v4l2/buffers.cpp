@@ -6,14 +6,13 @@
 #include <cerrno>
 #include <cstddef>
 
+#include "hal/v4l2/modes.h"
+
 namespace lumibox::hal::v4l2 {
 namespace {
 
 // One is being filled and one read; two more keep the camera going while the reader is late.
 constexpr std::uint32_t kBuffers = 4;
-
-// The smallest JPEG that can be made, of one grey pixel, has 125 bytes.
-constexpr std::size_t kSmallestJpeg = 125;
 
 v4l2_buffer mapped_buffer(std::uint32_t index) {
   v4l2_buffer buffer{};
@@ -31,38 +30,7 @@ v4l2_requestbuffers request_for(std::uint32_t count) {
   return request;
 }
 
-/// Begins with SOI and ends with EOI; cameras pad with zeros after that.
-bool is_whole_jpeg(std::span<const std::uint8_t> bytes) {
-  std::size_t size = bytes.size();
-  while (size > 0 && bytes[size - 1] == 0) --size;
-  return size >= 4 && bytes[0] == 0xFF && bytes[1] == 0xD8 && bytes[size - 2] == 0xFF &&
-         bytes[size - 1] == 0xD9;
-}
-
 }  // namespace
-
-const char* to_string(Damage damage) {
-  switch (damage) {
-    case Damage::None:
-      break;
-    case Damage::Faulty:
-      return "marked as damaged by the camera";
-    case Damage::Short:
-      return "too few bytes";
-    case Damage::NotJpeg:
-      return "not a complete JPEG";
-  }
-  return "whole";
-}
-
-Damage damage_of(const Filled& filled, const Layout& layout) {
-  if (filled.faulty) return Damage::Faulty;
-  if (layout.mode.format != PixelFormat::Mjpeg) {
-    return filled.bytes.size() < layout.size_bytes ? Damage::Short : Damage::None;
-  }
-  if (filled.bytes.size() < kSmallestJpeg) return Damage::Short;
-  return is_whole_jpeg(filled.bytes) ? Damage::None : Damage::NotJpeg;
-}
 
 BufferRing::~BufferRing() {
   int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
@@ -103,13 +71,13 @@ std::optional<std::string> BufferRing::map_buffers(std::uint32_t count) {
   return std::nullopt;
 }
 
-int BufferRing::take(Filled& filled) {
+int BufferRing::take(live::Filled& filled) {
   v4l2_buffer buffer = mapped_buffer(0);
   if (const int error = device_.ioctl(VIDIOC_DQBUF, &buffer); error != 0) return error;
   if (buffer.index >= buffers_.size()) return EIO;
   const std::span<std::uint8_t> memory = buffers_[buffer.index];
   filled.buffer = buffer.index;
-  filled.bytes = memory.first(std::min<std::size_t>(buffer.bytesused, memory.size()));
+  filled.bytes[0] = memory.first(std::min<std::size_t>(buffer.bytesused, memory.size()));
   filled.sequence = buffer.sequence;
   filled.timestamp_ns =
       std::int64_t{buffer.timestamp.tv_sec} * 1'000'000'000 + buffer.timestamp.tv_usec * 1000;
@@ -121,7 +89,7 @@ int BufferRing::take(Filled& filled) {
   return 0;
 }
 
-int BufferRing::give_back(const Filled& filled) {
+int BufferRing::give_back(const live::Filled& filled) {
   return queue(filled.buffer);
 }
 

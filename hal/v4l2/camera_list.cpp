@@ -17,10 +17,10 @@ namespace lumibox::hal {
 namespace {
 
 /// One line of each format and size, with its rates, the fastest first.
-std::string describe_modes(const std::vector<v4l2::Mode>& modes) {
-  using Picture = std::tuple<v4l2::PixelFormat, int, int>;
+std::string describe_modes(const std::vector<live::Mode>& modes) {
+  using Picture = std::tuple<live::PixelFormat, int, int>;
   std::map<Picture, std::set<double, std::greater<>>> rates_of;
-  for (const v4l2::Mode& mode : modes) {
+  for (const live::Mode& mode : modes) {
     rates_of[{mode.format, mode.width, mode.height}].insert(mode.interval.rate_hz());
   }
   std::string text;
@@ -30,7 +30,7 @@ std::string describe_modes(const std::vector<v4l2::Mode>& modes) {
     for (const double rate : rates) {
       if (rate > 0.0) list += fmt::format("{}{:.4g}", list.empty() ? "" : ", ", rate);
     }
-    text += fmt::format("  {} {}x{}: {}\n", v4l2::name_of(format), width, height,
+    text += fmt::format("  {} {}x{}: {}\n", live::name_of(format), width, height,
                         list.empty() ? "at a rate that it does not say" : list + " Hz");
   }
   return text.empty() ? "  no format that can be read here\n" : text;

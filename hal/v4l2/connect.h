@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "hal/v4l2/modes.h"
+#include "hal/live/modes.h"
 #include "hal/v4l2/video_system.h"
 
 /// Finding a camera by its name and setting it to a mode.
@@ -24,8 +24,7 @@ std::optional<Identity> identify(VideoDevice& device);
 
 struct Request {
   std::string name;  ///< a path, a part of the card's name in any case, or "auto": the first
-  Wish wish;
-  bool exact_size = false;          ///< the size wished for or none
+  live::Wish wish;
   std::optional<std::string> card;  ///< no other than this
 };
 
@@ -34,7 +33,7 @@ struct Connection {
   std::unique_ptr<VideoDevice> device;
   std::string path;
   Identity identity;
-  Layout layout;
+  live::Layout layout;
   std::string offer;  ///< "mjpeg, yuyv in 9 sizes up to 1920x1080"
 
   std::string name() const { return path + " (" + identity.card + ")"; }

@@ -7,7 +7,6 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 #include "config/error_text.h"
@@ -15,19 +14,30 @@
 namespace lumibox::hal::v4l2 {
 namespace {
 
+using live::Interval;
+using live::Layout;
+using live::Mode;
+using live::nearest_on_grid;
+using live::PixelFormat;
+using live::Wish;
+
 struct Format {
   PixelFormat format;
-  const char* name;
   std::uint32_t fourcc;
 };
 
-constexpr std::array<Format, 4> kFormats{{{PixelFormat::Yuyv, "yuyv", V4L2_PIX_FMT_YUYV},
-                                          {PixelFormat::Nv12, "nv12", V4L2_PIX_FMT_NV12},
-                                          {PixelFormat::Mjpeg, "mjpeg", V4L2_PIX_FMT_MJPEG},
-                                          {PixelFormat::Grey, "grey", V4L2_PIX_FMT_GREY}}};
+constexpr std::array<Format, 9> kFormats{{{PixelFormat::Yuyv, V4L2_PIX_FMT_YUYV},
+                                          {PixelFormat::Nv12, V4L2_PIX_FMT_NV12},
+                                          {PixelFormat::Yuv420, V4L2_PIX_FMT_YUV420},
+                                          {PixelFormat::Rgb, V4L2_PIX_FMT_RGB24},
+                                          {PixelFormat::Bgr, V4L2_PIX_FMT_BGR24},
+                                          {PixelFormat::Rgbx, V4L2_PIX_FMT_RGBX32},
+                                          {PixelFormat::Bgrx, V4L2_PIX_FMT_XBGR32},
+                                          {PixelFormat::Mjpeg, V4L2_PIX_FMT_MJPEG},
+                                          {PixelFormat::Grey, V4L2_PIX_FMT_GREY}}};
 
-const Format& row_of(PixelFormat format) {
-  return kFormats[static_cast<std::size_t>(format)];
+std::uint32_t fourcc_of(PixelFormat format) {
+  return std::ranges::find(kFormats, format, &Format::format)->fourcc;
 }
 
 /// Some drivers call theirs JPEG, which is the same.
@@ -46,9 +56,6 @@ struct Size {
 constexpr std::uint32_t kMostEntries = 512;
 constexpr std::size_t kMostModes = 4096;  // entries of entries of entries
 
-// Pixels a side: more than any camera has, and few enough for any product of two.
-constexpr std::uint32_t kLargestSide = 32768;
-
 /// All answers to a question that the driver answers one by one, up to its first refusal.
 template <typename Item>
 std::vector<Item> enumerate(VideoDevice& device, unsigned long request, Item item) {
@@ -61,15 +68,6 @@ std::vector<Item> enumerate(VideoDevice& device, unsigned long request, Item ite
   return items;
 }
 
-int nearest_on_grid(int wish, std::uint32_t least, std::uint32_t most, std::uint32_t step) {
-  const std::int64_t low = std::min(least, kLargestSide);
-  const std::int64_t high = std::max(low, std::int64_t{std::min(most, kLargestSide)});
-  const std::int64_t pitch = std::clamp(step, 1U, kLargestSide);
-  const std::int64_t steps = (std::clamp(std::int64_t{wish}, low, high) - low + pitch / 2) / pitch;
-  const std::int64_t nearest = low + steps * pitch;
-  return static_cast<int>(nearest <= high ? nearest : nearest - pitch);
-}
-
 std::vector<Size> list_sizes(VideoDevice& device, std::uint32_t fourcc, const Wish& wish) {
   v4l2_frmsizeenum question{};
   question.pixel_format = fourcc;
@@ -77,7 +75,7 @@ std::vector<Size> list_sizes(VideoDevice& device, std::uint32_t fourcc, const Wi
   for (const auto& answer : enumerate(device, VIDIOC_ENUM_FRAMESIZES, question)) {
     if (answer.type == V4L2_FRMSIZE_TYPE_DISCRETE) {
       const auto [width, height] = answer.discrete;
-      if (std::max(width, height) > kLargestSide) continue;
+      if (std::max(width, height) > live::kLargestSide) continue;
       sizes.push_back({static_cast<int>(width), static_cast<int>(height)});
       continue;
     }
@@ -119,36 +117,12 @@ std::vector<Interval> list_intervals(VideoDevice& device, std::uint32_t fourcc, 
   return intervals;
 }
 
-/// Smaller is better; the order of the numbers is the order of what matters.
-auto badness(const Mode& mode, const Wish& wish) {
-  const double size = std::abs(std::log(double{1} * mode.width / wish.width)) +
-                      std::abs(std::log(double{1} * mode.height / wish.height));
-  // Rates are rounded in many ways: 29.97 is 30.
-  constexpr double kSameRate = 0.01;
-  const double rate = mode.interval.rate_hz();
-  const double too_slow = rate < wish.rate_hz * (1.0 - kSameRate) ? wish.rate_hz - rate : 0.0;
-  const double too_fast = rate > wish.rate_hz * (1.0 + kSameRate) ? rate - wish.rate_hz : 0.0;
-  return std::tuple(size, too_slow, too_fast, static_cast<int>(mode.format));
-}
-
-std::size_t least_stride(const Mode& mode) {
-  const auto width = static_cast<std::size_t>(mode.width);
-  return mode.format == PixelFormat::Yuyv ? 2 * width : width;
-}
-
-Layout layout_of(const Mode& mode, const v4l2_pix_format& pix) {
-  Layout layout;
-  layout.mode = mode;
-  if (mode.format == PixelFormat::Mjpeg) return layout;
-  layout.stride = std::max(std::size_t{pix.bytesperline}, least_stride(mode));
-  layout.size_bytes = layout.stride * static_cast<std::size_t>(mode.height);
-  if (mode.format == PixelFormat::Nv12) layout.size_bytes += layout.size_bytes / 2;
+bool has_limited_range(const v4l2_pix_format& pix) {
   const auto usual = V4L2_MAP_QUANTIZATION_DEFAULT(false, pix.colorspace, V4L2_YCBCR_ENC_DEFAULT);
   const std::uint32_t range = pix.quantization == V4L2_QUANTIZATION_DEFAULT
                                   ? static_cast<std::uint32_t>(usual)
                                   : pix.quantization;
-  layout.limited_range = mode.format != PixelFormat::Grey && range == V4L2_QUANTIZATION_LIM_RANGE;
-  return layout;
+  return range == V4L2_QUANTIZATION_LIM_RANGE;
 }
 
 /// The interval that the camera keeps to, after it was asked for one. Cameras that cannot be asked
@@ -169,21 +143,6 @@ Interval set_interval(VideoDevice& device, Interval wished) {
 
 }  // namespace
 
-const char* name_of(PixelFormat format) {
-  return row_of(format).name;
-}
-
-std::optional<PixelFormat> format_named(std::string_view name) {
-  const auto* found = std::ranges::find(kFormats, name, &Format::name);
-  return found == kFormats.end() ? std::nullopt : std::optional(found->format);
-}
-
-std::string to_string(const Mode& mode) {
-  const double rate = mode.interval.rate_hz();
-  return fmt::format("{} {}x{}", name_of(mode.format), mode.width, mode.height) +
-         (rate > 0.0 ? fmt::format(" at {:.4g} Hz", rate) : " at a rate that it does not say");
-}
-
 std::vector<Mode> list_modes(VideoDevice& device, const Wish& wish) {
   v4l2_fmtdesc question{};
   question.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
@@ -192,8 +151,7 @@ std::vector<Mode> list_modes(VideoDevice& device, const Wish& wish) {
     const std::optional<PixelFormat> format = format_of(answer.pixelformat);
     if (!format) continue;
     for (const Size size : list_sizes(device, answer.pixelformat, wish)) {
-      if (size.width < 2 || size.height < 2 || size.width % 2 != 0 || size.height % 2 != 0)
-        continue;
+      if (!live::is_readable_size(size.width, size.height)) continue;
       for (const Interval interval :
            list_intervals(device, answer.pixelformat, size, wish.rate_hz)) {
         modes.push_back({*format, size.width, size.height, interval});
@@ -204,22 +162,13 @@ std::vector<Mode> list_modes(VideoDevice& device, const Wish& wish) {
   return modes;
 }
 
-std::optional<Mode> choose(const std::vector<Mode>& modes, const Wish& wish) {
-  std::optional<Mode> best;
-  for (const Mode& mode : modes) {
-    if (wish.format && mode.format != *wish.format) continue;
-    if (!best || badness(mode, wish) < badness(*best, wish)) best = mode;
-  }
-  return best;
-}
-
 std::variant<Layout, std::string> set_mode(VideoDevice& device, const Mode& mode) {
   v4l2_format format{};
   format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   v4l2_pix_format& pix = format.fmt.pix;
   pix.width = static_cast<std::uint32_t>(mode.width);
   pix.height = static_cast<std::uint32_t>(mode.height);
-  pix.pixelformat = row_of(mode.format).fourcc;
+  pix.pixelformat = fourcc_of(mode.format);
   pix.field = V4L2_FIELD_NONE;
   if (const int error = device.ioctl(VIDIOC_S_FMT, &format); error != 0) {
     return refusal("refuses " + to_string(mode), error);
@@ -236,7 +185,7 @@ std::variant<Layout, std::string> set_mode(VideoDevice& device, const Mode& mode
     return fmt::format("gives {} interlaced; expected whole pictures (progressive)",
                        to_string(mode));
   }
-  Layout layout = layout_of(mode, pix);
+  Layout layout = live::make_layout(mode, pix.bytesperline, has_limited_range(pix));
   layout.mode.interval = set_interval(device, mode.interval);
   return layout;
 }

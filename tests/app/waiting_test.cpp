@@ -32,7 +32,7 @@ class WaitingTest : public ::testing::Test {
             {hal::Button::Main, hal::ButtonAction::Pressed, 5 * kTick_ns}},
         *devices_.clock);
     devices_.open_camera = [this] {
-      hal::V4l2Options options;
+      hal::CameraOptions options;
       options.wishes.width = 32;
       options.wishes.height = 24;
       ++looks_;

@@ -112,7 +112,7 @@ class V4l2Rig : public Rig {
     webcam->modes = {{fourcc_, Recording::kWidth, Recording::kHeight, {10}}};
     webcam->controls = testing::webcam_controls();
     return std::make_unique<V4l2Camera>(
-        V4l2Options{}, clock(),
+        CameraOptions{}, clock(),
         std::make_unique<FakeVideo>(clock(), std::vector<std::shared_ptr<FakeCamera>>{webcam}),
         Service::Caller);
   }
@@ -129,7 +129,7 @@ class RealRig : public Rig {
   explicit RealRig(std::string device) : device_(std::move(device)) {}
 
   std::unique_ptr<Camera> open() override {
-    V4l2Options options;
+    CameraOptions options;
     options.device = device_;
     return std::make_unique<V4l2Camera>(options, clock_);
   }

@@ -5,12 +5,11 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <deque>
 #include <limits>
 
-#include "hal/image_io.h"
+#include "hal/fake_pictures.h"
 
 namespace lumibox::testing {
 namespace {
@@ -18,44 +17,16 @@ namespace {
 using hal::v4l2::Node;
 using hal::v4l2::Opened;
 
-constexpr int kJpegQuality = 95;
-
-std::uint8_t to_byte(double value) {
-  return static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
-}
-
-/// Y, U and V of Rec. 601.
-struct Yuv {
-  std::uint8_t y, u, v;
-};
-
-Yuv yuv_of(const std::uint8_t* rgb, bool limited) {
-  const double y = 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2];
-  const double u = (rgb[2] - y) / 1.772;
-  const double v = (rgb[0] - y) / 1.402;
-  if (!limited) return {to_byte(y), to_byte(128 + u), to_byte(128 + v)};
-  return {to_byte(16 + y * 219 / 255), to_byte(128 + u * 224 / 255), to_byte(128 + v * 224 / 255)};
-}
-
-void append_yuyv_row(const hal::Image& picture, int y, bool limited,
-                     std::vector<std::uint8_t>& bytes) {
-  for (int x = 0; x < picture.width(); x += 2) {
-    const Yuv left = yuv_of(picture.at(x, y), limited);
-    const Yuv right = yuv_of(picture.at(x + 1, y), limited);
-    bytes.insert(bytes.end(), {left.y, left.u, right.y, left.v});
-  }
-}
-
-void append_luma_row(const hal::Image& picture, int y, bool limited,
-                     std::vector<std::uint8_t>& bytes) {
-  for (int x = 0; x < picture.width(); ++x) bytes.push_back(yuv_of(picture.at(x, y), limited).y);
-}
-
-void append_chroma_row(const hal::Image& picture, int y, bool limited,
-                       std::vector<std::uint8_t>& bytes) {
-  for (int x = 0; x < picture.width(); x += 2) {
-    const Yuv yuv = yuv_of(picture.at(x, y), limited);
-    bytes.insert(bytes.end(), {yuv.u, yuv.v});
+hal::live::PixelFormat format_of(std::uint32_t fourcc) {
+  switch (fourcc) {
+    case V4L2_PIX_FMT_YUYV:
+      return hal::live::PixelFormat::Yuyv;
+    case V4L2_PIX_FMT_NV12:
+      return hal::live::PixelFormat::Nv12;
+    case V4L2_PIX_FMT_GREY:
+      return hal::live::PixelFormat::Grey;
+    default:
+      return hal::live::PixelFormat::Mjpeg;
   }
 }
 
@@ -406,8 +377,8 @@ void OpenFake::make_pictures() {
 void OpenFake::make_picture(std::uint32_t sequence, std::int64_t timestamp_ns) {
   if (queued_.empty() || camera_->skipped.contains(sequence)) return;
   std::vector<std::uint8_t> bytes =
-      encode(picture_of(static_cast<int>(sequence), mode_.width, mode_.height), mode_.fourcc,
-             camera_->limited_range, camera_->padding);
+      encode(picture_of(static_cast<int>(sequence), mode_.width, mode_.height),
+             format_of(mode_.fourcc), camera_->limited_range, camera_->padding);
   if (camera_->cut.contains(sequence)) bytes.resize(bytes.size() / 2);
   if (camera_->garbled.contains(sequence)) {
     // In the middle of the compressed picture: begins and ends as it should.
@@ -428,38 +399,6 @@ void FakeCamera::unplug() {
 
 void FakeCamera::plug() {
   plugged = true;
-}
-
-hal::Image picture_of(int number, int width, int height) {
-  hal::Image image(width, height, 3);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const int level = 60 + 16 * (number % 8) + x % 64;
-      image.at(x, y)[0] = static_cast<std::uint8_t>(level + 20);
-      image.at(x, y)[1] = static_cast<std::uint8_t>(level);
-      image.at(x, y)[2] = static_cast<std::uint8_t>(level - 20);
-    }
-  }
-  return image;
-}
-
-std::vector<std::uint8_t> encode(const hal::Image& picture, std::uint32_t fourcc,
-                                 bool limited_range, std::size_t padding) {
-  if (fourcc == V4L2_PIX_FMT_MJPEG) return hal::encode_jpeg(picture, kJpegQuality);
-  std::vector<std::uint8_t> bytes;
-  for (int y = 0; y < picture.height(); ++y) {
-    if (fourcc == V4L2_PIX_FMT_YUYV) {
-      append_yuyv_row(picture, y, limited_range, bytes);
-    } else {
-      append_luma_row(picture, y, limited_range, bytes);
-    }
-    bytes.insert(bytes.end(), padding, 0);
-  }
-  for (int y = 0; fourcc == V4L2_PIX_FMT_NV12 && y < picture.height(); y += 2) {
-    append_chroma_row(picture, y, limited_range, bytes);
-    bytes.insert(bytes.end(), padding, 0);
-  }
-  return bytes;
 }
 
 std::map<std::uint32_t, FakeControl> webcam_controls() {

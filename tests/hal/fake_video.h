@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "hal/clock.h"
-#include "hal/image.h"
 #include "hal/v4l2/video_system.h"
 
 namespace lumibox::testing {
@@ -43,8 +42,8 @@ struct FakeControl {
 enum class Silence { None, UntilBegunAnew, UntilOpenedAnew, ForGood };
 
 /// A camera in memory: what it offers, how it misbehaves, and what was done with it. It makes the
-/// pictures picture_of() says, one each period of the clock, as drivers do: into the buffers that
-/// it has been given, in turn, and nowhere if it has none.
+/// pictures picture_of() says (fake_pictures.h), one each period of the clock, as drivers do: into
+/// the buffers that it has been given, in turn, and nowhere if it has none.
 struct FakeCamera {
   std::string path = "/dev/video0";
   std::string stable_path;
@@ -85,13 +84,6 @@ struct FakeCamera {
   void plug();
   int plugs = 0;
 };
-
-/// The picture that a camera takes as its `number`-th since its stream began.
-hal::Image picture_of(int number, int width, int height);
-
-/// The same as a driver hands it over.
-std::vector<std::uint8_t> encode(const hal::Image& picture, std::uint32_t fourcc,
-                                 bool limited_range = false, std::size_t padding = 0);
 
 /// The controls of a common webcam, everything automatic.
 std::map<std::uint32_t, FakeControl> webcam_controls();

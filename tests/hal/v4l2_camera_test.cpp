@@ -80,7 +80,7 @@ class V4l2CameraTest : public ::testing::Test {
   VirtualClock clock_;
   std::shared_ptr<FakeCamera> webcam_ = std::make_shared<FakeCamera>();
   std::vector<std::shared_ptr<FakeCamera>> webcams_ = {webcam_};
-  V4l2Options options_;
+  CameraOptions options_;
   FakeVideo* video_ = nullptr;
   std::unique_ptr<V4l2Camera> camera_;
 };
@@ -477,7 +477,7 @@ TEST_F(V4l2CameraTest, StartingAnewFindsACameraThatWasPluggedInAgainMeanwhile) {
 
 TEST(LinuxVideo, WhatIsNoCameraIsSaidToBeNone) {
   const SystemClock clock;
-  V4l2Options options;
+  CameraOptions options;
   options.device = "/dev/null";
   EXPECT_THAT(testing::message_of([&] { V4l2Camera(options, clock); }),
               HasSubstr("/dev/null: no camera that streams"));

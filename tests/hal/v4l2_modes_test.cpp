@@ -1,6 +1,5 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <rapidcheck/gtest.h>
 
 #include <memory>
 #include <variant>
@@ -15,6 +14,9 @@
 namespace lumibox::hal::v4l2 {
 namespace {
 
+using live::Layout;
+using live::Mode;
+using live::PixelFormat;
 using ::testing::ElementsAre;
 using testing::FakeCamera;
 using testing::FakeVideo;
@@ -105,61 +107,11 @@ TEST_F(V4l2Modes, CamerasThatDoNotSayTheirRatesHaveOneMode) {
   camera_->modes = {{V4L2_PIX_FMT_YUYV, 640, 480, {}}};
   const std::vector<Mode> modes = list_modes(device(), {});
   EXPECT_THAT(texts(modes), ElementsAre("yuyv 640x480 at a rate that it does not say"));
-  EXPECT_TRUE(choose(modes, {}));
+  EXPECT_TRUE(live::choose(modes, {}));
 }
 
 Mode mode(PixelFormat format, int width, int height, std::uint32_t rate) {
   return {format, width, height, {1, rate}};
-}
-
-std::string chosen(const std::vector<Mode>& modes, const Wish& wish) {
-  const auto found = choose(modes, wish);
-  return found ? to_string(*found) : "none";
-}
-
-const std::vector<Mode> kWebcam = {
-    mode(PixelFormat::Mjpeg, 1280, 720, 30), mode(PixelFormat::Mjpeg, 640, 480, 30),
-    mode(PixelFormat::Mjpeg, 640, 480, 60),  mode(PixelFormat::Yuyv, 1280, 720, 10),
-    mode(PixelFormat::Yuyv, 640, 480, 15),   mode(PixelFormat::Yuyv, 640, 480, 30),
-    mode(PixelFormat::Grey, 640, 480, 120),
-};
-
-TEST(V4l2Choice, PrefersWhatIsNotCompressedWhereThatIsAsFast) {
-  EXPECT_EQ(chosen(kWebcam, {std::nullopt, 640, 480, 30}), "yuyv 640x480 at 30 Hz");
-  EXPECT_EQ(chosen(kWebcam, {std::nullopt, 1280, 720, 30}), "mjpeg 1280x720 at 30 Hz");
-  EXPECT_EQ(chosen(kWebcam, {std::nullopt, 640, 480, 60}), "mjpeg 640x480 at 60 Hz");
-}
-
-TEST(V4l2Choice, PrefersTheSizeToTheRateAndTheNearestFasterRate) {
-  EXPECT_EQ(chosen(kWebcam, {PixelFormat::Yuyv, 1280, 720, 30}), "yuyv 1280x720 at 10 Hz");
-  EXPECT_EQ(chosen(kWebcam, {PixelFormat::Yuyv, 640, 480, 20}), "yuyv 640x480 at 30 Hz");
-  EXPECT_EQ(chosen(kWebcam, {PixelFormat::Mjpeg, 640, 480, 10}), "mjpeg 640x480 at 30 Hz");
-  EXPECT_EQ(chosen(kWebcam, {std::nullopt, 1000, 700, 30}), "mjpeg 1280x720 at 30 Hz");
-}
-
-TEST(V4l2Choice, PrefersNoMoreFramesThanNeededToTheFormat) {
-  EXPECT_EQ(chosen({mode(PixelFormat::Yuyv, 640, 480, 60), mode(PixelFormat::Mjpeg, 640, 480, 30)},
-                   {std::nullopt, 640, 480, 30}),
-            "mjpeg 640x480 at 30 Hz");
-}
-
-TEST(V4l2Choice, ThirtyIsTwentyNinePointNineSeven) {
-  std::vector<Mode> modes = {mode(PixelFormat::Mjpeg, 640, 480, 30)};
-  modes.push_back({PixelFormat::Yuyv, 640, 480, {1001, 30000}});
-  EXPECT_EQ(chosen(modes, {std::nullopt, 640, 480, 30}), "yuyv 640x480 at 29.97 Hz");
-}
-
-TEST(V4l2Choice, TheFormatIsKeptTo) {
-  EXPECT_EQ(chosen(kWebcam, {PixelFormat::Mjpeg, 640, 480, 30}), "mjpeg 640x480 at 30 Hz");
-  EXPECT_EQ(chosen(kWebcam, {PixelFormat::Grey, 1280, 720, 30}), "grey 640x480 at 120 Hz");
-  EXPECT_EQ(chosen(kWebcam, {PixelFormat::Nv12, 640, 480, 30}), "none");
-  EXPECT_EQ(chosen({}, {}), "none");
-}
-
-RC_GTEST_PROP(V4l2ChoiceProperty, TheOrderOfTheOffersDoesNotMatter, (const std::uint8_t draw)) {
-  const Wish wish{std::nullopt, 320 + 16 * (draw % 64), 480, 5.0 + draw % 60};
-  const std::string straight = chosen(kWebcam, wish);
-  RC_ASSERT(chosen({kWebcam.rbegin(), kWebcam.rend()}, wish) == straight);
 }
 
 TEST_F(V4l2Modes, WhatIsSetIsChecked) {
@@ -195,14 +147,6 @@ TEST_F(V4l2Modes, RowsMayBePaddedAndValuesOfLimitedRange) {
   EXPECT_EQ(layout.stride, 704U);
   EXPECT_EQ(layout.size_bytes, 704U * 720U);
   EXPECT_TRUE(layout.limited_range);
-}
-
-TEST(V4l2Formats, HaveTheNamesOfTheConfiguration) {
-  for (const char* name : {"yuyv", "nv12", "mjpeg", "grey"}) {
-    ASSERT_TRUE(format_named(name)) << name;
-    EXPECT_STREQ(name_of(*format_named(name)), name);
-  }
-  EXPECT_FALSE(format_named("auto"));
 }
 
 TEST(CameraList, SaysWhatEachCameraOffersAndLeavesOutWhatIsNone) {

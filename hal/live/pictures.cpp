@@ -1,4 +1,4 @@
-#include "hal/v4l2/pictures.h"
+#include "hal/live/pictures.h"
 
 #include <turbojpeg.h>
 
@@ -12,7 +12,7 @@
 
 #include "hal/owned.h"
 
-namespace lumibox::hal::v4l2 {
+namespace lumibox::hal::live {
 namespace {
 
 using Handle = std::unique_ptr<void, Freed<tjDestroy>>;
@@ -119,10 +119,62 @@ Planes split_nv12(const RawPicture& raw) {
   return planes;
 }
 
+/// A plane of luma, then one of U and one of V, half as wide and half as high.
+Planes split_yuv420(const RawPicture& raw) {
+  const Mode& mode = raw.layout.mode;
+  Planes planes = make_planes(mode, TJSAMP_420);
+  copy_luma(raw, planes.luma);
+  const Range& range = chroma_range(raw.layout.limited_range);
+  const std::uint8_t* source =
+      raw.bytes.data() + static_cast<std::size_t>(mode.height) * raw.layout.stride;
+  for (Image* chroma : {&planes.blue, &planes.red}) {
+    for (int y = 0; y < chroma->height(); ++y, source += raw.layout.stride / 2) {
+      std::transform(source, source + chroma->width(), chroma->row(y),
+                     [&range](std::uint8_t value) { return range[value]; });
+    }
+  }
+  return planes;
+}
+
 Planes copy_grey(const RawPicture& raw) {
   Planes planes = make_planes(raw.layout.mode, TJSAMP_GRAY);
   copy_luma(raw, planes.luma);
   return planes;
+}
+
+/// Where red and blue are in the bytes of a pixel, of which there are so many.
+struct RgbOrder {
+  int red, blue, bytes;
+};
+
+std::optional<RgbOrder> rgb_order_of(PixelFormat format) {
+  switch (format) {
+    case PixelFormat::Rgb:
+      return RgbOrder{0, 2, 3};
+    case PixelFormat::Bgr:
+      return RgbOrder{2, 0, 3};
+    case PixelFormat::Rgbx:
+      return RgbOrder{0, 2, 4};
+    case PixelFormat::Bgrx:
+      return RgbOrder{2, 0, 4};
+    default:
+      return std::nullopt;
+  }
+}
+
+Image copy_rgb(const RawPicture& raw, const RgbOrder& order) {
+  const Mode& mode = raw.layout.mode;
+  Image color(mode.width, mode.height, 3);
+  for (int y = 0; y < mode.height; ++y) {
+    const std::uint8_t* source = raw.bytes.data() + static_cast<std::size_t>(y) * raw.layout.stride;
+    std::uint8_t* target = color.row(y);
+    for (int x = 0; x < mode.width; ++x, source += order.bytes, target += 3) {
+      target[0] = source[order.red];
+      target[1] = source[1];
+      target[2] = source[order.blue];
+    }
+  }
+  return color;
 }
 
 /// Some webcams fill up their JPEG with bytes that mean nothing before its end (EOI, 0xd9): the
@@ -167,12 +219,15 @@ std::optional<Planes> planes_of(const Handle& handle, const RawPicture& raw) {
       return split_yuyv(raw);
     case PixelFormat::Nv12:
       return split_nv12(raw);
+    case PixelFormat::Yuv420:
+      return split_yuv420(raw);
     case PixelFormat::Grey:
       return copy_grey(raw);
     case PixelFormat::Mjpeg:
       return decode_jpeg_planes(handle, raw);
+    default:
+      return std::nullopt;
   }
-  return std::nullopt;
 }
 
 /// Colours of planes that are not grey.
@@ -190,18 +245,23 @@ std::optional<Image> colour_of(const Handle& handle, const Planes& planes) {
 }  // namespace
 
 std::optional<Frame> decode(const RawPicture& raw) {
+  Frame frame;
+  frame.index = raw.index;
+  frame.timestamp_ns = raw.timestamp_ns;
+  if (const auto order = rgb_order_of(raw.layout.mode.format)) {
+    frame.color = std::make_shared<const Image>(copy_rgb(raw, *order));
+    frame.gray = std::make_shared<const Image>(to_gray(*frame.color));
+    return frame;
+  }
   const Handle handle(tjInitDecompress());
   std::optional<Planes> planes = planes_of(handle, raw);
   if (!planes) return std::nullopt;
   std::optional<Image> color =
       planes->sampling == TJSAMP_GRAY ? to_rgb(planes->luma) : colour_of(handle, *planes);
   if (!color) return std::nullopt;
-  Frame frame;
-  frame.index = raw.index;
-  frame.timestamp_ns = raw.timestamp_ns;
   frame.color = std::make_shared<const Image>(*std::move(color));
   frame.gray = std::make_shared<const Image>(std::move(planes->luma));
   return frame;
 }
 
-}  // namespace lumibox::hal::v4l2
+}  // namespace lumibox::hal::live

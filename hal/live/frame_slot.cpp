@@ -1,8 +1,8 @@
-#include "hal/v4l2/frame_slot.h"
+#include "hal/live/frame_slot.h"
 
 #include <utility>
 
-namespace lumibox::hal::v4l2 {
+namespace lumibox::hal::live {
 
 void FrameSlot::put(RawPicture raw) {
   const std::lock_guard lock(mutex_);
@@ -69,4 +69,4 @@ void FrameSlot::displace() {
   frame_.reset();
 }
 
-}  // namespace lumibox::hal::v4l2
+}  // namespace lumibox::hal::live

@@ -1,8 +1,8 @@
-#include "hal/v4l2/recovery.h"
+#include "hal/live/recovery.h"
 
 #include <algorithm>
 
-namespace lumibox::hal::v4l2 {
+namespace lumibox::hal::live {
 namespace {
 
 // A device that only hiccuped is back in a quarter of a second; where udev does not tell, one that
@@ -55,4 +55,4 @@ Recovery::Action Recovery::due(std::int64_t now_ns) {
   return Action::None;
 }
 
-}  // namespace lumibox::hal::v4l2
+}  // namespace lumibox::hal::live

@@ -1,38 +1,26 @@
 #include <gtest/gtest.h>
-#include <linux/videodev2.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "hal/fake_video.h"
+#include "hal/fake_pictures.h"
 #include "hal/image_io.h"
-#include "hal/v4l2/frame_slot.h"
-#include "hal/v4l2/pictures.h"
+#include "hal/live/frame_slot.h"
+#include "hal/live/pictures.h"
 
-namespace lumibox::hal::v4l2 {
+namespace lumibox::hal::live {
 namespace {
 
 constexpr int kWidth = 64;
 constexpr int kHeight = 48;
 
-struct Case {
-  PixelFormat format;
-  std::uint32_t fourcc;
-  std::size_t bytes_per_row;
-};
-constexpr Case kYuyv{PixelFormat::Yuyv, V4L2_PIX_FMT_YUYV, 2 * kWidth};
-constexpr Case kNv12{PixelFormat::Nv12, V4L2_PIX_FMT_NV12, kWidth};
-constexpr Case kGrey{PixelFormat::Grey, V4L2_PIX_FMT_GREY, kWidth};
-constexpr Case kMjpeg{PixelFormat::Mjpeg, V4L2_PIX_FMT_MJPEG, 0};
-
-RawPicture raw_of(const Case& c, const Image& picture, bool limited = false,
+RawPicture raw_of(PixelFormat format, const Image& picture, bool limited = false,
                   std::size_t padding = 0) {
+  const Mode mode{format, picture.width(), picture.height(), {1, 30}};
   RawPicture raw;
-  raw.layout.mode = {c.format, picture.width(), picture.height(), {1, 30}};
-  raw.layout.stride = c.bytes_per_row + padding;
-  raw.layout.limited_range = limited;
-  raw.bytes = testing::encode(picture, c.fourcc, limited, padding);
+  raw.layout = make_layout(mode, make_layout(mode, 0, limited).stride + padding, limited);
+  raw.bytes = testing::encode(picture, format, limited, padding);
   raw.index = 7;
   raw.timestamp_ns = 42;
   return raw;
@@ -53,15 +41,18 @@ const Image& picture() {
   return kPicture;
 }
 
-TEST(V4l2Pictures, EveryFormatGivesTheColoursThatWereSeen) {
-  for (const Case& c : {kYuyv, kNv12, kMjpeg}) {
+constexpr PixelFormat kYuvFormats[] = {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420};
+
+TEST(LivePictures, EveryFormatGivesTheColoursThatWereSeen) {
+  for (const PixelFormat format :
+       {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420, PixelFormat::Mjpeg}) {
     for (const bool limited : {false, true}) {
-      if (c.format == PixelFormat::Mjpeg && limited) continue;
-      const auto frame = decode(raw_of(c, picture(), limited));
-      ASSERT_TRUE(frame) << name_of(c.format);
+      if (format == PixelFormat::Mjpeg && limited) continue;
+      const auto frame = decode(raw_of(format, picture(), limited));
+      ASSERT_TRUE(frame) << name_of(format);
       // Rounding, twice with a limited range; JPEG loses more.
-      const int tolerance = c.format == PixelFormat::Mjpeg ? 8 : 4;
-      EXPECT_LE(largest_difference(*frame->color, picture()), tolerance) << name_of(c.format);
+      const int tolerance = format == PixelFormat::Mjpeg ? 8 : 4;
+      EXPECT_LE(largest_difference(*frame->color, picture()), tolerance) << name_of(format);
       EXPECT_LE(largest_difference(*frame->gray, to_gray(picture())), tolerance);
       EXPECT_EQ(frame->index, 7);
       EXPECT_EQ(frame->timestamp_ns, 42);
@@ -69,32 +60,49 @@ TEST(V4l2Pictures, EveryFormatGivesTheColoursThatWereSeen) {
   }
 }
 
-TEST(V4l2Pictures, LumaOfFullRangeIsHandedOnAsItIs) {
-  for (const Case& c : {kYuyv, kNv12, kGrey}) {
-    const auto frame = decode(raw_of(c, picture()));
-    EXPECT_LE(largest_difference(*frame->gray, to_gray(picture())), 1) << name_of(c.format);
+TEST(LivePictures, RgbOfEveryOrderIsHandedOnAsItIs) {
+  for (const PixelFormat format :
+       {PixelFormat::Rgb, PixelFormat::Bgr, PixelFormat::Rgbx, PixelFormat::Bgrx}) {
+    for (const std::size_t padding : {0U, 10U}) {
+      const auto frame = decode(raw_of(format, picture(), true, padding));
+      ASSERT_TRUE(frame) << name_of(format);
+      EXPECT_EQ(*frame->color, picture()) << name_of(format);
+      EXPECT_EQ(*frame->gray, to_gray(picture())) << name_of(format);
+      EXPECT_EQ(frame->index, 7);
+    }
   }
 }
 
-TEST(V4l2Pictures, BlackAndWhiteOfALimitedRangeAreBlackAndWhite) {
-  Image picture(kWidth, kHeight, 3);
-  std::fill(picture.row(0), picture.row(kHeight / 2), std::uint8_t{255});
-  const auto frame = decode(raw_of(kNv12, picture, /*limited=*/true));
-  EXPECT_EQ(*frame->gray->at(3, 0), 255);
-  EXPECT_EQ(*frame->gray->at(3, kHeight - 1), 0);
+TEST(LivePictures, LumaOfFullRangeIsHandedOnAsItIs) {
+  for (const PixelFormat format :
+       {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420, PixelFormat::Grey}) {
+    const auto frame = decode(raw_of(format, picture()));
+    EXPECT_LE(largest_difference(*frame->gray, to_gray(picture())), 1) << name_of(format);
+  }
 }
 
-TEST(V4l2Pictures, GreyCamerasHaveGreyColours) {
-  const auto frame = decode(raw_of(kGrey, picture()));
+TEST(LivePictures, BlackAndWhiteOfALimitedRangeAreBlackAndWhite) {
+  Image picture(kWidth, kHeight, 3);
+  std::fill(picture.row(0), picture.row(kHeight / 2), std::uint8_t{255});
+  for (const PixelFormat format : kYuvFormats) {
+    const auto frame = decode(raw_of(format, picture, /*limited=*/true));
+    EXPECT_EQ(*frame->gray->at(3, 0), 255) << name_of(format);
+    EXPECT_EQ(*frame->gray->at(3, kHeight - 1), 0) << name_of(format);
+  }
+}
+
+TEST(LivePictures, GreyCamerasHaveGreyColours) {
+  const auto frame = decode(raw_of(PixelFormat::Grey, picture()));
   EXPECT_EQ(*frame->color, to_rgb(*frame->gray));
 }
 
-TEST(V4l2Pictures, BytesAtTheEndOfRowsAreLeftOut) {
-  for (const Case& c : {kYuyv, kNv12, kGrey}) {
-    const auto plain = decode(raw_of(c, picture()));
-    const auto padded = decode(raw_of(c, picture(), false, 24));
-    EXPECT_EQ(*padded->color, *plain->color) << name_of(c.format);
-    EXPECT_EQ(*padded->gray, *plain->gray) << name_of(c.format);
+TEST(LivePictures, BytesAtTheEndOfRowsAreLeftOut) {
+  for (const PixelFormat format :
+       {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420, PixelFormat::Grey}) {
+    const auto plain = decode(raw_of(format, picture()));
+    const auto padded = decode(raw_of(format, picture(), false, 24));
+    EXPECT_EQ(*padded->color, *plain->color) << name_of(format);
+    EXPECT_EQ(*padded->gray, *plain->gray) << name_of(format);
   }
 }
 
@@ -115,8 +123,8 @@ std::vector<std::uint8_t> without_segments(const std::vector<std::uint8_t>& jpeg
   return result;
 }
 
-TEST(V4l2Pictures, MotionJpegMayLackTheUsualHuffmanTables) {
-  RawPicture raw = raw_of(kMjpeg, picture());
+TEST(LivePictures, MotionJpegMayLackTheUsualHuffmanTables) {
+  RawPicture raw = raw_of(PixelFormat::Mjpeg, picture());
   const auto whole = decode(raw);
   const std::size_t size = raw.bytes.size();
   raw.bytes = without_segments(raw.bytes, 0xC4);
@@ -126,8 +134,8 @@ TEST(V4l2Pictures, MotionJpegMayLackTheUsualHuffmanTables) {
   EXPECT_EQ(*frame->color, *whole->color);
 }
 
-TEST(V4l2Pictures, BytesWithoutMeaningBeforeTheEndOfAJpegDoNoHarm) {
-  RawPicture raw = raw_of(kMjpeg, picture());
+TEST(LivePictures, BytesWithoutMeaningBeforeTheEndOfAJpegDoNoHarm) {
+  RawPicture raw = raw_of(PixelFormat::Mjpeg, picture());
   const auto whole = decode(raw);
   raw.bytes.insert(raw.bytes.end() - 2, {0x12, 0x34, 0x56, 0x78, 0x12, 0x34, 0x56, 0x78});
   const auto frame = decode(raw);
@@ -135,8 +143,8 @@ TEST(V4l2Pictures, BytesWithoutMeaningBeforeTheEndOfAJpegDoNoHarm) {
   EXPECT_EQ(*frame->gray, *whole->gray);
 }
 
-TEST(V4l2Pictures, ADamagedJpegIsNoPicture) {
-  const RawPicture whole = raw_of(kMjpeg, picture());
+TEST(LivePictures, ADamagedJpegIsNoPicture) {
+  const RawPicture whole = raw_of(PixelFormat::Mjpeg, picture());
   RawPicture cut = whole;
   cut.bytes.erase(cut.bytes.end() - 150, cut.bytes.end() - 2);
   EXPECT_FALSE(decode(cut));
@@ -152,8 +160,8 @@ TEST(V4l2Pictures, ADamagedJpegIsNoPicture) {
 }
 
 // Grey JPEGs, and chroma of every sampling, have planes of their own sizes.
-TEST(V4l2Pictures, AGreyJpegIsAPicture) {
-  RawPicture raw = raw_of(kMjpeg, picture());
+TEST(LivePictures, AGreyJpegIsAPicture) {
+  RawPicture raw = raw_of(PixelFormat::Mjpeg, picture());
   raw.bytes = encode_jpeg(to_gray(picture()), 95);
   const auto frame = decode(raw);
   ASSERT_TRUE(frame);
@@ -161,7 +169,7 @@ TEST(V4l2Pictures, AGreyJpegIsAPicture) {
 }
 
 RawPicture numbered(std::int64_t index) {
-  RawPicture raw = raw_of(kMjpeg, picture());
+  RawPicture raw = raw_of(PixelFormat::Mjpeg, picture());
   raw.index = index;
   return raw;
 }
@@ -172,7 +180,7 @@ RawPicture damaged() {
   return raw;
 }
 
-TEST(V4l2FrameSlot, KeepsTheNewestAndCountsTheRest) {
+TEST(LiveFrameSlot, KeepsTheNewestAndCountsTheRest) {
   FrameSlot slot;
   EXPECT_FALSE(slot.take());
   slot.put(numbered(0));
@@ -187,7 +195,7 @@ TEST(V4l2FrameSlot, KeepsTheNewestAndCountsTheRest) {
   EXPECT_EQ(slot.counters().dropped, 5);
 }
 
-TEST(V4l2FrameSlot, WhatIsDisplacedUndecodedIsNeverDecoded) {
+TEST(LiveFrameSlot, WhatIsDisplacedUndecodedIsNeverDecoded) {
   FrameSlot slot;
   slot.put(damaged());  // decoding it would count it
   slot.put(numbered(1));
@@ -196,7 +204,7 @@ TEST(V4l2FrameSlot, WhatIsDisplacedUndecodedIsNeverDecoded) {
 }
 
 // A damaged picture tells when it is decoded: it is counted then.
-TEST(V4l2FrameSlot, DecodesAheadOnlyForALoopThatKeepsUp) {
+TEST(LiveFrameSlot, DecodesAheadOnlyForALoopThatKeepsUp) {
   FrameSlot slot;
   slot.put(damaged());
   slot.decode_ahead();
@@ -219,7 +227,7 @@ TEST(V4l2FrameSlot, DecodesAheadOnlyForALoopThatKeepsUp) {
   EXPECT_EQ(slot.counters().dropped, 4);
 }
 
-TEST(V4l2FrameSlot, CountsWhatIsForgotten) {
+TEST(LiveFrameSlot, CountsWhatIsForgotten) {
   FrameSlot slot;
   slot.clear();
   EXPECT_EQ(slot.counters().dropped, 0);
@@ -235,4 +243,4 @@ TEST(V4l2FrameSlot, CountsWhatIsForgotten) {
 }
 
 }  // namespace
-}  // namespace lumibox::hal::v4l2
+}  // namespace lumibox::hal::live

@@ -1,4 +1,4 @@
-// The parts of the webcam backend that decide, without a camera: buffers, numbers, times, recovery.
+// The parts of all real cameras that decide, without a camera: buffers, numbers, times, recovery.
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "hal/image_io.h"
-#include "hal/v4l2/buffers.h"
-#include "hal/v4l2/numbering.h"
-#include "hal/v4l2/recovery.h"
+#include "hal/live/filled.h"
+#include "hal/live/numbering.h"
+#include "hal/live/recovery.h"
 
-namespace lumibox::hal::v4l2 {
+namespace lumibox::hal::live {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
@@ -26,26 +26,26 @@ Layout layout_of(PixelFormat format, std::size_t bytes) {
 
 Damage judge(const std::vector<std::uint8_t>& bytes, const Layout& layout) {
   Filled filled;
-  filled.bytes = bytes;
+  filled.bytes[0] = bytes;
   return damage_of(filled, layout);
 }
 
-TEST(V4l2Buffers, APictureMustBeAsLongAsItsFormatSays) {
+TEST(FilledBuffers, APictureMustBeAsLongAsItsFormatSays) {
   const Layout layout = layout_of(PixelFormat::Yuyv, 1536);
   EXPECT_EQ(judge(std::vector<std::uint8_t>(1536), layout), Damage::None);
   EXPECT_EQ(judge(std::vector<std::uint8_t>(1535), layout), Damage::Short);
   EXPECT_EQ(judge({}, layout), Damage::Short);
 }
 
-TEST(V4l2Buffers, WhatTheCameraCallsDamagedIsDamaged) {
+TEST(FilledBuffers, WhatTheCameraCallsDamagedIsDamaged) {
   const std::vector<std::uint8_t> bytes(1536);
   Filled filled;
-  filled.bytes = bytes;
+  filled.bytes[0] = bytes;
   filled.faulty = true;
   EXPECT_EQ(damage_of(filled, layout_of(PixelFormat::Yuyv, 1536)), Damage::Faulty);
 }
 
-TEST(V4l2Buffers, AJpegBeginsAndEndsAsOneAndMayBePaddedWithZeros) {
+TEST(FilledBuffers, AJpegBeginsAndEndsAsOneAndMayBePaddedWithZeros) {
   const Layout layout = layout_of(PixelFormat::Mjpeg, 0);
   const std::vector<std::uint8_t> whole = encode_jpeg(Image(32, 24, 3), 90);
   EXPECT_EQ(judge(whole, layout), Damage::None);
@@ -60,12 +60,12 @@ TEST(V4l2Buffers, AJpegBeginsAndEndsAsOneAndMayBePaddedWithZeros) {
   EXPECT_EQ(judge({0xFF, 0xD8, 0xFF, 0xD9}, layout), Damage::Short);
 }
 
-RC_GTEST_PROP(V4l2BuffersProperty, AnyBytesAreJudged, (std::vector<std::uint8_t> bytes)) {
+RC_GTEST_PROP(FilledBuffersProperty, AnyBytesAreJudged, (std::vector<std::uint8_t> bytes)) {
   const Damage damage = judge(bytes, layout_of(PixelFormat::Mjpeg, 0));
   RC_ASSERT(damage != Damage::None || (bytes.size() >= 125 && bytes[0] == 0xFF));
 }
 
-TEST(V4l2Numbering, GapsOfTheDriversSequenceAreGapsOfTheFrames) {
+TEST(LiveNumbering, GapsOfTheDriversSequenceAreGapsOfTheFrames) {
   Numbering numbering;
   EXPECT_EQ(numbering.next(7), 0);  // drivers need not begin at 0
   EXPECT_EQ(numbering.missed(), 0);
@@ -74,7 +74,7 @@ TEST(V4l2Numbering, GapsOfTheDriversSequenceAreGapsOfTheFrames) {
   EXPECT_EQ(numbering.missed(), 2);
 }
 
-TEST(V4l2Numbering, GoesOnOverStreamsAndWrapsAround) {
+TEST(LiveNumbering, GoesOnOverStreamsAndWrapsAround) {
   Numbering numbering;
   EXPECT_EQ(numbering.next(0xFFFFFFFF), 0);
   EXPECT_EQ(numbering.next(1), 2);
@@ -83,7 +83,7 @@ TEST(V4l2Numbering, GoesOnOverStreamsAndWrapsAround) {
   EXPECT_EQ(numbering.missed(), 0);
 }
 
-TEST(V4l2Numbering, DriversThatDoNotCountGiveOneByOne) {
+TEST(LiveNumbering, DriversThatDoNotCountGiveOneByOne) {
   Numbering numbering;
   for (int i = 0; i < 5; ++i) {
     EXPECT_EQ(numbering.next(0), i);
@@ -100,7 +100,7 @@ Filled stamped(std::int64_t timestamp_ns) {
   return filled;
 }
 
-TEST(V4l2Stamping, TakesTheDriversTimeToTheMiddleRow) {
+TEST(LiveStamping, TakesTheDriversTimeToTheMiddleRow) {
   constexpr std::int64_t kReadout = 20'000'000;
   Stamping stamping(kReadout);
   EXPECT_EQ(stamping.stamp(stamped(kSecond), 2 * kSecond), kSecond - kReadout / 2);
@@ -110,7 +110,7 @@ TEST(V4l2Stamping, TakesTheDriversTimeToTheMiddleRow) {
   EXPECT_EQ(stamping.stamp(from_start, 3 * kSecond), 2 * kSecond + kReadout / 2);
 }
 
-TEST(V4l2Stamping, TimesOfAnotherClockAreReplacedByWhenTheBufferCame) {
+TEST(LiveStamping, TimesOfAnotherClockAreReplacedByWhenTheBufferCame) {
   Stamping stamping(0);
   Filled other = stamped(kSecond);
   other.monotonic = false;
@@ -120,13 +120,13 @@ TEST(V4l2Stamping, TimesOfAnotherClockAreReplacedByWhenTheBufferCame) {
   EXPECT_TRUE(stamping.replaced());
 }
 
-TEST(V4l2Stamping, ABufferMayBeFilledAMomentAfterTheClockWasRead) {
+TEST(LiveStamping, ABufferMayBeFilledAMomentAfterTheClockWasRead) {
   Stamping stamping(0);
   EXPECT_EQ(stamping.stamp(stamped(kSecond + 300'000), kSecond), kSecond + 300'000);
   EXPECT_FALSE(stamping.replaced());
 }
 
-RC_GTEST_PROP(V4l2StampingProperty, TimesIncreaseWhateverTheDriverSays,
+RC_GTEST_PROP(LiveStampingProperty, TimesIncreaseWhateverTheDriverSays,
               (const std::vector<std::pair<std::int32_t, bool>>& draws)) {
   Stamping stamping(30'000'000);
   std::int64_t now_ns = 10 * kSecond;  // more than any offset
@@ -142,7 +142,7 @@ RC_GTEST_PROP(V4l2StampingProperty, TimesIncreaseWhateverTheDriverSays,
   }
 }
 
-TEST(V4l2Recovery, FramesInTimeNeedNothing) {
+TEST(LiveRecovery, FramesInTimeNeedNothing) {
   Recovery recovery(2 * kSecond);
   EXPECT_EQ(recovery.due_ns(), Recovery::kNever);
   recovery.began(0);
@@ -153,7 +153,7 @@ TEST(V4l2Recovery, FramesInTimeNeedNothing) {
   }
 }
 
-TEST(V4l2Recovery, AStallIsFirstAnsweredByANewStreamThenByANewDevice) {
+TEST(LiveRecovery, AStallIsFirstAnsweredByANewStreamThenByANewDevice) {
   Recovery recovery(2 * kSecond);
   recovery.began(0);
   EXPECT_EQ(recovery.due(2 * kSecond - 1), Action::None);
@@ -165,7 +165,7 @@ TEST(V4l2Recovery, AStallIsFirstAnsweredByANewStreamThenByANewDevice) {
   EXPECT_EQ(recovery.due(recovery.due_ns()), Action::Open);
 }
 
-TEST(V4l2Recovery, AFrameAfterANewStreamMakesAllWell) {
+TEST(LiveRecovery, AFrameAfterANewStreamMakesAllWell) {
   Recovery recovery(2 * kSecond);
   recovery.began(0);
   EXPECT_EQ(recovery.due(2 * kSecond), Action::Restart);
@@ -173,7 +173,7 @@ TEST(V4l2Recovery, AFrameAfterANewStreamMakesAllWell) {
   EXPECT_EQ(recovery.due(5 * kSecond), Action::Restart);  // not Close: another stall
 }
 
-TEST(V4l2Recovery, ADeviceThatIsGoneIsLookedForAtGrowingIntervalsUpToFourSeconds) {
+TEST(LiveRecovery, ADeviceThatIsGoneIsLookedForAtGrowingIntervalsUpToFourSeconds) {
   Recovery recovery(2 * kSecond);
   std::vector<std::int64_t> intervals;
   std::int64_t now = 0;
@@ -188,7 +188,7 @@ TEST(V4l2Recovery, ADeviceThatIsGoneIsLookedForAtGrowingIntervalsUpToFourSeconds
   EXPECT_EQ(intervals, expected);
 }
 
-TEST(V4l2Recovery, OnlyAFrameMakesTheIntervalsShortAgain) {
+TEST(LiveRecovery, OnlyAFrameMakesTheIntervalsShortAgain) {
   Recovery recovery(2 * kSecond);
   for (int i = 0; i < 5; ++i) recovery.closed(0);
   recovery.began(0);  // it opens, and gives nothing
@@ -200,7 +200,7 @@ TEST(V4l2Recovery, OnlyAFrameMakesTheIntervalsShortAgain) {
   EXPECT_EQ(recovery.due_ns(), 20 * kSecond + kSecond / 4);
 }
 
-TEST(V4l2Recovery, ADeviceThatAppearsIsOpenedAtOnce) {
+TEST(LiveRecovery, ADeviceThatAppearsIsOpenedAtOnce) {
   Recovery recovery(2 * kSecond);
   recovery.began(0);
   recovery.device_appeared(kSecond);  // another one: nobody waits for it
@@ -210,7 +210,7 @@ TEST(V4l2Recovery, ADeviceThatAppearsIsOpenedAtOnce) {
   EXPECT_EQ(recovery.due(kSecond + 1), Action::Open);
 }
 
-TEST(V4l2Recovery, NothingIsDueOnceStopped) {
+TEST(LiveRecovery, NothingIsDueOnceStopped) {
   Recovery recovery(2 * kSecond);
   recovery.began(0);
   recovery.stopped();
@@ -219,4 +219,4 @@ TEST(V4l2Recovery, NothingIsDueOnceStopped) {
 }
 
 }  // namespace
-}  // namespace lumibox::hal::v4l2
+}  // namespace lumibox::hal::live

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "hal/frame.h"
-#include "hal/v4l2/modes.h"
+#include "hal/live/modes.h"
 
-namespace lumibox::hal::v4l2 {
+namespace lumibox::hal::live {
 
 /// A picture as the camera gave it, in memory of our own.
 struct RawPicture {
@@ -17,8 +17,9 @@ struct RawPicture {
   std::int64_t timestamp_ns = 0;  ///< as Frame has it
 };
 
-/// Grey is the camera's own luma, without a detour over colours, and colour is made of the same
-/// planes (Rec. 601, as JPEG has it). None if it is a JPEG that is damaged or of another size.
+/// Grey is the camera's own luma, where it gives any, without a detour over colours, and colour is
+/// made of the same planes (Rec. 601, as JPEG has it). None if it is a JPEG that is damaged or of
+/// another size.
 std::optional<Frame> decode(const RawPicture& raw);
 
-}  // namespace lumibox::hal::v4l2
+}  // namespace lumibox::hal::live

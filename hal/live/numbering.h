@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <optional>
 
-#include "hal/v4l2/buffers.h"
+#include "hal/live/filled.h"
 
 /// Which picture of the camera a buffer is, and of when.
-namespace lumibox::hal::v4l2 {
+namespace lumibox::hal::live {
 
 /// Numbers the pictures of a camera from 0, over all its streams, with gaps where the driver's
 /// sequence has them.
@@ -47,4 +47,4 @@ class Stamping {
   bool replaced_ = false;
 };
 
-}  // namespace lumibox::hal::v4l2
+}  // namespace lumibox::hal::live

@@ -1,8 +1,8 @@
-#include "hal/v4l2/numbering.h"
+#include "hal/live/numbering.h"
 
 #include <algorithm>
 
-namespace lumibox::hal::v4l2 {
+namespace lumibox::hal::live {
 
 std::int64_t Numbering::next(std::uint32_t sequence) {
   // Of 32 bits, which wrap around. A step back, and drivers that do not count, are one step.
@@ -29,4 +29,4 @@ std::int64_t Stamping::stamp(const Filled& filled, std::int64_t now_ns) {
   return stamp_ns;
 }
 
-}  // namespace lumibox::hal::v4l2
+}  // namespace lumibox::hal::live

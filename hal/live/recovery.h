@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace lumibox::hal::v4l2 {
+namespace lumibox::hal::live {
 
 /// What to do about a stream that gives nothing: first it is begun anew, then its device is closed,
 /// then opened again, at growing intervals until a frame comes. Knows only what happened and when;
@@ -43,4 +43,4 @@ class Recovery {
   std::int64_t delay_ns_ = 0;  ///< before the next attempt to open; 0: none yet since a frame
 };
 
-}  // namespace lumibox::hal::v4l2
+}  // namespace lumibox::hal::live

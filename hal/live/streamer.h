@@ -2,24 +2,20 @@
 
 #include <atomic>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "hal/v4l2/buffers.h"
-#include "hal/v4l2/connect.h"
-#include "hal/v4l2/controls.h"
-#include "hal/v4l2/frame_slot.h"
-#include "hal/v4l2/numbering.h"
-#include "hal/v4l2/recovery.h"
+#include "hal/camera.h"
+#include "hal/live/device.h"
+#include "hal/live/frame_slot.h"
+#include "hal/live/numbering.h"
+#include "hal/live/recovery.h"
 
-namespace lumibox::hal::v4l2 {
+namespace lumibox::hal::live {
 
 struct StreamSettings {
-  std::int64_t readout_ns = 0;        ///< from the first row to the last
-  int stall_periods = 60;             ///< of a frame, without one, until something is done about it
-  std::optional<Setting> power_line;  ///< none: as the camera has it
+  std::int64_t readout_ns = 0;               ///< from the first row to the last
+  std::int64_t patience_ns = 2'000'000'000;  ///< without a frame, until something is done about it
 };
 
 /// Keeps a camera streaming into a slot, whatever becomes of the camera. It never waits: somebody
@@ -28,10 +24,8 @@ struct StreamSettings {
 /// caller.
 class Streamer {
  public:
-  /// `system` and `slot` must outlive the object.
-  Streamer(VideoSystem& system, FrameSlot& slot, Request request, Connection connection,
-           const StreamSettings& settings);
-  ~Streamer();
+  /// `device` and `slot` must outlive the object.
+  Streamer(Device& device, FrameSlot& slot, const StreamSettings& settings);
 
   /// Begins the stream, its frames numbered from 0. The reason if the camera refuses.
   std::optional<std::string> start(std::int64_t now_ns);
@@ -44,7 +38,7 @@ class Streamer {
   std::int64_t due_ns() const { return recovery_.due_ns(); }
 
   /// What announces work for service(); -1 while there is no device.
-  int poll_fd() const { return ring_ ? connection_.device->poll_fd() : -1; }
+  int poll_fd() const { return device_.poll_fd(); }
 
   CameraState state() const { return state_; }
 
@@ -60,9 +54,7 @@ class Streamer {
   };
 
   std::optional<std::string> open_and_begin(std::int64_t now_ns);
-  void free_what_was_left_held();
-  std::optional<std::string> begin_stream(std::int64_t now_ns);
-  void update_hold();
+  std::optional<std::string> begin_stream();
   void drain(std::int64_t now_ns);
   bool accept(const Filled& filled, std::int64_t now_ns);
   void hand_over(std::int64_t now_ns);
@@ -72,21 +64,15 @@ class Streamer {
   void lose(const std::string& reason, std::int64_t now_ns);
   void close_device(std::int64_t now_ns);
   void say_lost(const std::string& reason, std::int64_t now_ns);
-  void say_faults(const std::vector<std::string>& faults);
+  std::string name() const { return "camera " + device_.name(); }
 
-  VideoSystem& system_;
+  Device& device_;
   FrameSlot& slot_;
-  Request request_;
-  Connection connection_;
   StreamSettings settings_;
-  std::string name_;
-  std::optional<BufferRing> ring_;
   Recovery recovery_;
   Numbering numbering_;
   Stamping stamping_;
   std::optional<Newest> newest_;
-  ExposureHold hold_;
-  std::optional<bool> hold_done_;  ///< what was wanted when this device's controls were set
   std::int64_t lost_ns_ = 0;
   std::string reopen_fault_;  ///< why the last attempt failed; said once
   bool said_damage_ = false;
@@ -95,4 +81,4 @@ class Streamer {
   std::atomic<CameraState> state_ = CameraState::Stopped;
 };
 
-}  // namespace lumibox::hal::v4l2
+}  // namespace lumibox::hal::live

@@ -6,9 +6,9 @@
 #include <optional>
 
 #include "hal/camera.h"
-#include "hal/v4l2/pictures.h"
+#include "hal/live/pictures.h"
 
-namespace lumibox::hal::v4l2 {
+namespace lumibox::hal::live {
 
 /// The mailbox between the camera's thread, which puts, and the loop, which takes: of what is put
 /// only the newest stays, and what it displaces is counted.
@@ -48,4 +48,4 @@ class FrameSlot {
   CameraCounters counters_;
 };
 
-}  // namespace lumibox::hal::v4l2
+}  // namespace lumibox::hal::live
