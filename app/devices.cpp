@@ -15,6 +15,7 @@
 #include "hal/gpiod/gpiod_buttons.h"
 #include "hal/gpiod/gpiod_led.h"
 #include "hal/kms/kms_display.h"
+#include "hal/libcamera/libcamera_camera.h"
 #include "hal/merged_buttons.h"
 #include "hal/offscreen/offscreen_display.h"
 #include "hal/replay/replay_camera.h"
@@ -69,8 +70,10 @@ std::unique_ptr<hal::Clock> open_clock(const std::string& text) {
 }
 
 /// Frames of a real camera come in real time.
-std::unique_ptr<hal::Camera> open_webcam(const std::string& device, const config::Config& config,
-                                         const hal::Clock& clock) {
+template <typename RealCamera>
+std::unique_ptr<hal::Camera> open_real_camera(const std::string& device,
+                                              const config::Config& config,
+                                              const hal::Clock& clock) {
   if (config.devices.clock != "system") {
     throw config::InputError("devices.clock: \"" + config.devices.clock +
                              "\" with a real camera; expected \"system\"");
@@ -79,7 +82,7 @@ std::unique_ptr<hal::Camera> open_webcam(const std::string& device, const config
   if (!config.devices.calibration.empty()) {
     options.calibration = hal::read_calibration(config.devices.calibration);
   }
-  return std::make_unique<hal::V4l2Camera>(options, clock);
+  return std::make_unique<RealCamera>(options, clock);
 }
 
 std::unique_ptr<hal::Camera> open_camera(const config::Config& config, const hal::Clock& clock) {
@@ -87,12 +90,20 @@ std::unique_ptr<hal::Camera> open_camera(const config::Config& config, const hal
   const std::string& calibration = config.devices.calibration;
   if (text.empty()) {
     throw config::InputError(
-        "devices.camera is not set; expected v4l2:DEVICE, sim:SCENE.toml or replay:SEQUENCE, in a "
-        "--config file or with --set devices.camera=...");
+        "devices.camera is not set; expected v4l2:DEVICE, libcamera, sim:SCENE.toml or "
+        "replay:SEQUENCE, in a --config file or with --set devices.camera=...");
   }
   const Name name = split(text);
   if (name.kind == "v4l2") {
-    return open_webcam(what_of(name, "camera", "v4l2:auto or v4l2:/dev/video0"), config, clock);
+    return open_real_camera<hal::V4l2Camera>(
+        what_of(name, "camera", "v4l2:auto or v4l2:/dev/video0"), config, clock);
+  }
+  if (text == "libcamera") {
+    return open_real_camera<hal::LibcameraCamera>("auto", config, clock);
+  }
+  if (name.kind == "libcamera") {
+    return open_real_camera<hal::LibcameraCamera>(
+        what_of(name, "camera", "libcamera, libcamera:auto or libcamera:0"), config, clock);
   }
   if (name.kind == "sim") {
     if (!calibration.empty()) {
@@ -109,7 +120,8 @@ std::unique_ptr<hal::Camera> open_camera(const config::Config& config, const hal
             calibration.empty() ? std::nullopt : std::optional<std::filesystem::path>(calibration)),
         clock, hal::Pacing::Recorded);
   }
-  refuse("camera", text, "v4l2:DEVICE, sim:SCENE.toml and replay:SEQUENCE");
+  refuse("camera", text,
+         "v4l2:DEVICE, libcamera, libcamera:CAMERA, sim:SCENE.toml and replay:SEQUENCE");
 }
 
 /// Buttons that a hand presses go by the system's time.

@@ -20,6 +20,7 @@ pkg_check_modules(GLES REQUIRED IMPORTED_TARGET glesv2)
 pkg_check_modules(EVDEV REQUIRED IMPORTED_TARGET libevdev)
 pkg_check_modules(GPIOD REQUIRED IMPORTED_TARGET libgpiod)  # 1.x or 2.x
 string(REGEX MATCH "^[0-9]+" gpiod_major ${GPIOD_VERSION})
+pkg_check_modules(LIBCAMERA REQUIRED IMPORTED_TARGET libcamera)  # from 0.0.3 on
 pkg_check_modules(DRM REQUIRED IMPORTED_TARGET libdrm)
 pkg_check_modules(SYSTEMD REQUIRED IMPORTED_TARGET libsystemd)
 pkg_check_modules(GBM REQUIRED IMPORTED_TARGET gbm)

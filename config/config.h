@@ -116,7 +116,7 @@ struct Display {
 /// What the box is made of; app/devices.cpp knows the kinds.
 struct Devices {
   std::string clock = "system";  ///< system, or virtual: as fast as the work allows
-  std::string camera;            ///< v4l2:DEVICE, sim:SCENE.toml, replay:SEQUENCE
+  std::string camera;            ///< v4l2:DEVICE, libcamera:CAMERA, sim:SCENE.toml, replay:SEQUENCE
   std::string calibration;       ///< of the camera, in place of a recording's own
   /// none, or, with commas, any of script:FILE, gpio, evdev:any, evdev:PATH, evdev:NAME, window
   std::string buttons = "none";
@@ -124,13 +124,13 @@ struct Devices {
   std::string display = "offscreen:640x480";  ///< offscreen:, window:WIDTHxHEIGHT, kms:CARD
 };
 
-/// What is asked of a camera that is opened through v4l2.
+/// What is asked of a camera that is opened through v4l2 or libcamera.
 struct Camera {
   std::string format = "auto";      ///< auto, or a name of hal/live/modes.h
   int width = 0;                    ///< pixels; 0: the calibration's, or 640 without one
   int height = 0;                   ///< pixels; 0: the calibration's, or 480 without one
   double rate_hz = 30.0;            ///< frames per second
-  std::string power_line = "asis";  ///< asis, off, 50hz, 60hz, auto
+  std::string power_line = "asis";  ///< asis, off, 50hz, 60hz, auto; v4l2 only
   int stall_periods = 60;           ///< of a frame, without one, until its stream is begun anew
 };
 

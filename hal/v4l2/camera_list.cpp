@@ -63,7 +63,7 @@ std::string describe(v4l2::VideoSystem& system, const v4l2::Node& node) {
 std::string list_cameras(v4l2::VideoSystem& system) {
   std::string text;
   for (const v4l2::Node& node : system.nodes()) text += describe(system, node);
-  return text.empty() ? "no camera found\n" : text;
+  return text;
 }
 
 }  // namespace lumibox::hal

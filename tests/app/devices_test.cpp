@@ -34,7 +34,7 @@ TEST(Devices, KindsThatThisBuildDoesNotHaveAreNamedWithThoseItHas) {
 
 TEST(Devices, KindsWithoutANameAreRefused) {
   config::Config config;
-  for (const char* camera : {"sim", "sim:", "replay", "replay:", "v4l2", "v4l2:"}) {
+  for (const char* camera : {"sim", "sim:", "replay", "replay:", "v4l2", "v4l2:", "libcamera:"}) {
     config.devices.camera = camera;
     EXPECT_THAT(complaint(config), HasSubstr("without a name; expected")) << camera;
   }
@@ -170,6 +170,8 @@ TEST(Devices, ACameraAndAScreenThatAreNotThereAreMissingAndMayCome) {
   EXPECT_THAT(devices.missing,
               AllOf(HasSubstr("devices.camera: /nowhere/video"), HasSubstr("No such file")));
   EXPECT_EQ(devices.display->width(), 32);
+  config.devices.camera = "libcamera:no such camera";
+  EXPECT_THAT(open_devices(config).missing, HasSubstr("devices.camera: libcamera finds no camera"));
   config.devices.camera = "replay:" + recording.folder().string();
   config.devices.display = "kms:/nowhere/card0";
   devices = Devices();

@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "hal/fake_libcamera.h"
 #include "hal/fake_video.h"
+#include "hal/libcamera/libcamera_camera.h"
 #include "hal/replay/replay_camera.h"
 #include "hal/sim/scene.h"
 #include "hal/sim/sim_camera.h"
@@ -26,6 +28,8 @@ namespace lumibox::hal {
 namespace {
 
 using testing::FakeCamera;
+using testing::FakeLibcamera;
+using testing::FakeSensor;
 using testing::FakeVideo;
 using testing::Recording;
 using testing::TempDir;
@@ -123,7 +127,31 @@ class V4l2Rig : public Rig {
   std::uint32_t fourcc_;
 };
 
-/// The webcam that LUMIBOX_TEST_VIDEO names (a path, a name or auto), in real time.
+/// A camera of a board in memory, looked after by whoever takes frames.
+class LibcameraRig : public Rig {
+ public:
+  explicit LibcameraRig(live::PixelFormat format) : format_(format) {}
+
+  std::unique_ptr<Camera> open() override {
+    const auto sensor = std::make_shared<FakeSensor>();
+    sensor->offers = {testing::offer(format_, Recording::kWidth, Recording::kHeight)};
+    CameraOptions options;
+    options.wishes.rate_hz = 10.0;
+    return std::make_unique<LibcameraCamera>(
+        options, clock(),
+        std::make_unique<FakeLibcamera>(clock(), std::vector<std::shared_ptr<FakeSensor>>{sensor}),
+        Service::Caller);
+  }
+
+  bool gray_is_of_color() const override { return format_ == live::PixelFormat::Bgr; }
+
+ private:
+  live::PixelFormat format_;
+};
+
+/// The camera that LUMIBOX_TEST_VIDEO (a path, a name or auto) or LUMIBOX_TEST_LIBCAMERA (a number,
+/// an id, a name or auto) names, in real time.
+template <typename RealCamera>
 class RealRig : public Rig {
  public:
   explicit RealRig(std::string device) : device_(std::move(device)) {}
@@ -131,7 +159,7 @@ class RealRig : public Rig {
   std::unique_ptr<Camera> open() override {
     CameraOptions options;
     options.device = device_;
-    return std::make_unique<V4l2Camera>(options, clock_);
+    return std::make_unique<RealCamera>(options, clock_);
   }
 
   Clock& clock() override { return clock_; }
@@ -156,7 +184,7 @@ class CameraTest : public ::testing::TestWithParam<Backend> {
  protected:
   void SetUp() override {
     rig_ = GetParam().make_rig();
-    if (!rig_) GTEST_SKIP() << "LUMIBOX_TEST_VIDEO names no camera";
+    if (!rig_) GTEST_SKIP() << "the environment names no camera; see RealRig";
     camera_ = rig_->open();
     period_ns_ = std::llround(1e9 / camera_->profile().fps);
   }
@@ -399,9 +427,17 @@ Backend v4l2(const char* name, std::uint32_t fourcc) {
   return {name, [=] { return std::make_unique<V4l2Rig>(fourcc); }};
 }
 
-std::unique_ptr<Rig> real_rig() {
-  const char* device = std::getenv("LUMIBOX_TEST_VIDEO");
-  return device == nullptr ? nullptr : std::make_unique<RealRig>(device);
+Backend libcamera(const char* name, live::PixelFormat format) {
+  return {name, [=] { return std::make_unique<LibcameraRig>(format); }};
+}
+
+template <typename RealCamera>
+Backend real(const char* name, const char* variable) {
+  return {name, [variable]() -> std::unique_ptr<Rig> {
+            const char* device = std::getenv(variable);
+            if (device == nullptr) return nullptr;
+            return std::make_unique<RealRig<RealCamera>>(device);
+          }};
 }
 
 const Backend kSim{"Sim", [] { return std::make_unique<SimRig>(); }};
@@ -412,21 +448,25 @@ const Backend kVideoLockstep =
     replay("ReplayOfVideoInLockstep", Recording::Medium::Video, Pacing::Lockstep);
 const Backend kMjpeg = v4l2("V4l2Mjpeg", V4L2_PIX_FMT_MJPEG);
 const Backend kYuyv = v4l2("V4l2Yuyv", V4L2_PIX_FMT_YUYV);
-const Backend kRealVideo{"RealVideo", real_rig};
+const Backend kNv12 = libcamera("LibcameraNv12", live::PixelFormat::Nv12);
+const Backend kBgr = libcamera("LibcameraBgr", live::PixelFormat::Bgr);
+const Backend kRealVideo = real<V4l2Camera>("RealVideo", "LUMIBOX_TEST_VIDEO");
+const Backend kRealLibcamera = real<LibcameraCamera>("RealLibcamera", "LUMIBOX_TEST_LIBCAMERA");
 
 INSTANTIATE_TEST_SUITE_P(Backends, EveryCamera,
                          ::testing::Values(kSim, kImages, kVideo, kLockstep, kVideoLockstep, kMjpeg,
-                                           kYuyv, kRealVideo),
+                                           kYuyv, kNv12, kBgr, kRealVideo, kRealLibcamera),
                          name_of);
 INSTANTIATE_TEST_SUITE_P(Backends, RepeatingCamera,
                          ::testing::Values(kSim, kImages, kVideo, kLockstep, kVideoLockstep, kMjpeg,
-                                           kYuyv),
+                                           kYuyv, kNv12, kBgr),
                          name_of);
 INSTANTIATE_TEST_SUITE_P(Backends, RecordedCamera,
                          ::testing::Values(kSim, kImages, kVideo, kLockstep, kVideoLockstep),
                          name_of);
 INSTANTIATE_TEST_SUITE_P(Backends, PacedCamera,
-                         ::testing::Values(kSim, kImages, kVideo, kMjpeg, kYuyv), name_of);
+                         ::testing::Values(kSim, kImages, kVideo, kMjpeg, kYuyv, kNv12, kBgr),
+                         name_of);
 INSTANTIATE_TEST_SUITE_P(Backends, PacedRecordedCamera, ::testing::Values(kSim, kImages, kVideo),
                          name_of);
 

@@ -144,4 +144,18 @@ std::vector<std::uint8_t> encode(const hal::Image& picture, PixelFormat format, 
   return writer.bytes;
 }
 
+bool is_silent(Silence silence, int streams, int opened) {
+  switch (silence) {
+    case Silence::None:
+      return false;
+    case Silence::UntilBegunAnew:
+      return streams < 2;
+    case Silence::UntilOpenedAnew:
+      return opened < 2;
+    case Silence::ForGood:
+      return true;
+  }
+  return true;
+}
+
 }  // namespace lumibox::testing

@@ -18,4 +18,10 @@ hal::Image picture_of(int number, int width, int height);
 std::vector<std::uint8_t> encode(const hal::Image& picture, hal::live::PixelFormat format,
                                  bool limited_range = false, std::size_t padding = 0);
 
+/// Until when a camera gives no picture.
+enum class Silence { None, UntilBegunAnew, UntilOpenedAnew, ForGood };
+
+/// Of a camera whose stream was begun, and which was opened, so many times.
+bool is_silent(Silence silence, int streams, int opened);
+
 }  // namespace lumibox::testing

@@ -9,8 +9,6 @@
 #include <deque>
 #include <limits>
 
-#include "hal/fake_pictures.h"
-
 namespace lumibox::testing {
 namespace {
 
@@ -82,7 +80,6 @@ class OpenFake : public hal::v4l2::VideoDevice {
   int describe_entry(const v4l2_querymenu& entry) const;
   int read_control(v4l2_control& control) const;
   int write_control(const v4l2_control& control);
-  bool is_silent() const;
   void make_pictures();
   void make_picture(std::uint32_t sequence, std::int64_t timestamp_ns);
 
@@ -349,20 +346,6 @@ int OpenFake::write_control(const v4l2_control& control) {
   return 0;
 }
 
-bool OpenFake::is_silent() const {
-  switch (camera_->silence) {
-    case Silence::None:
-      return false;
-    case Silence::UntilBegunAnew:
-      return camera_->streams < 2;
-    case Silence::UntilOpenedAnew:
-      return camera_->opened < 2;
-    case Silence::ForGood:
-      return true;
-  }
-  return true;
-}
-
 /// All that have become due by now.
 void OpenFake::make_pictures() {
   if (!streaming_) return;
@@ -370,7 +353,8 @@ void OpenFake::make_pictures() {
   const std::int64_t period_ns = 1'000'000'000LL * interval.numerator / interval.denominator;
   while (begun_ns_ + (ticks_ + 1) * period_ns <= clock_.now_ns()) {
     ++ticks_;
-    if (!is_silent()) make_picture(sequence_++, begun_ns_ + ticks_ * period_ns);
+    if (is_silent(camera_->silence, camera_->streams, camera_->opened)) continue;
+    make_picture(sequence_++, begun_ns_ + ticks_ * period_ns);
   }
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "hal/clock.h"
+#include "hal/fake_pictures.h"
 #include "hal/v4l2/video_system.h"
 
 namespace lumibox::testing {
@@ -37,9 +38,6 @@ struct FakeControl {
   int refusals = 0;                     ///< of so many writes to come
   bool stubborn = false;                ///< takes a value and forgets it
 };
-
-/// Until when no picture comes.
-enum class Silence { None, UntilBegunAnew, UntilOpenedAnew, ForGood };
 
 /// A camera in memory: what it offers, how it misbehaves, and what was done with it. It makes the
 /// pictures picture_of() says (fake_pictures.h), one each period of the clock, as drivers do: into
