@@ -9,8 +9,9 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# What no program links to: the OpenGL drivers and the letters on the screen.
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "libgl1-mesa-dri, fonts-dejavu-core, systemd, udev")
+# What no program links to: the OpenGL drivers, the letters on the screen, and what steers the signal
+# processors of boards, which libcamera loads.
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "libgl1-mesa-dri, fonts-dejavu-core, libcamera-ipa, systemd, udev")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/systemd/postinst
                                        ${CMAKE_SOURCE_DIR}/systemd/prerm)
 include(CPack)

@@ -44,38 +44,49 @@ bool has(const Offer& offer, int width, int height) {
 
 /// The rate wished for, as near as the camera can keep to it; 0 / 0 if it cannot be told.
 live::Interval interval_of(const Abilities& abilities, double rate_hz) {
-  if (!abilities.frame_duration_us) return {};
-  const auto [least, most] = *abilities.frame_duration_us;
-  const std::int64_t duration_us =
-      std::clamp<std::int64_t>(std::llround(1e6 / rate_hz), least, most);
-  return {static_cast<std::uint32_t>(duration_us), 1'000'000};
+  const auto [least, most] = abilities.frame_duration_us.value_or(std::pair(0, 0));
+  if (least <= 0 || most < least) return {};
+  const std::int64_t wished_us = std::llround(1e6 / rate_hz);
+  return {static_cast<std::uint32_t>(std::clamp(wished_us, least, most)), 1'000'000};
 }
 
-/// The layout, or why there is none.
-std::variant<live::Layout, std::string> set_mode(OpenCamera& camera, const live::Mode& mode) {
+bool will_do(const Configured& got, const live::Mode& asked, const Request& request) {
+  const bool same_format = got.format == asked.format;
+  const bool same_size = got.width == asked.width && got.height == asked.height;
+  const bool any_format = !request.wish.format && !request.mode;
+  const bool any_size = !request.wish.exact_size && !request.mode;
+  return got.format && live::is_readable_size(got.width, got.height) &&
+         (same_format || any_format) && (same_size || any_size);
+}
+
+/// What the camera made of a mode, or why that is of no use. It may change sizes to what its signal
+/// processor can do.
+std::variant<live::Layout, std::string> set_mode(OpenCamera& camera, const live::Mode& mode,
+                                                 const Request& request) {
   const std::string asked =
       fmt::format("{} {}x{}", live::name_of(mode.format), mode.width, mode.height);
   const auto answer = camera.configure(mode);
   if (const auto* error = std::get_if<int>(&answer)) return refusal("refuses " + asked, *error);
   const Configured& got = std::get<Configured>(answer);
-  if (got.format != mode.format || got.width != mode.width || got.height != mode.height) {
+  if (!will_do(got, mode, request)) {
     return fmt::format("was asked for {} and gives {}x{} in {}", asked, got.width, got.height,
                        got.format ? live::name_of(*got.format) : "a format that is not read here");
   }
-  return live::make_layout(mode, got.stride, got.limited_range);
+  return live::make_layout({*got.format, got.width, got.height, {}}, got.stride, got.limited_range);
 }
 
 /// A camera that is open, or why it will not do.
-std::variant<Connection, std::string> set_up(Connection found, const live::Wish& wish) {
-  const std::vector<live::Mode> modes = list_modes(*found.camera, wish);
-  const auto mode = live::decide(modes, wish);
+std::variant<Connection, std::string> set_up(Connection found, const Request& request) {
+  const std::vector<live::Mode> modes = list_modes(*found.camera, request.wish);
+  const std::variant<live::Mode, std::string> mode =
+      request.mode ? *request.mode : live::decide(modes, request.wish);
   if (const auto* fault = std::get_if<std::string>(&mode)) return found.name() + ": " + *fault;
-  const auto layout = set_mode(*found.camera, std::get<live::Mode>(mode));
+  const auto layout = set_mode(*found.camera, std::get<live::Mode>(mode), request);
   if (const auto* fault = std::get_if<std::string>(&layout)) return found.name() + ": " + *fault;
   found.layout = std::get<live::Layout>(layout);
   found.abilities = found.camera->abilities();
-  found.layout.mode.interval = interval_of(found.abilities, wish.rate_hz);
-  found.offer = live::offer_of(modes);
+  found.layout.mode.interval = interval_of(found.abilities, request.wish.rate_hz);
+  found.offer = modes.empty() ? std::string() : live::offer_of(modes);
   return found;
 }
 
@@ -118,7 +129,7 @@ std::variant<Connection, std::string> connect(CameraSystem& system, const Reques
       reason = refusal(name_of(identity), opened.error);
       continue;
     }
-    auto found = set_up(Connection{std::move(opened.camera), identity, {}, {}, {}}, request.wish);
+    auto found = set_up(Connection{std::move(opened.camera), identity, {}, {}, {}}, request);
     if (std::holds_alternative<Connection>(found)) return found;
     reason = std::get<std::string>(found);
   }
@@ -132,7 +143,7 @@ std::variant<Connection, std::string> connect(CameraSystem& system, const Reques
 }
 
 Request again(const Request& request, const Connection& connection) {
-  return {connection.identity.id, live::again(request.wish, connection.layout.mode)};
+  return {connection.identity.id, request.wish, connection.layout.mode};
 }
 
 std::string refusal(const std::string& what, int error) {

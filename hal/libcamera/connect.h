@@ -15,6 +15,7 @@ namespace lumibox::hal::libcam {
 struct Request {
   std::string name;  ///< a number of the list, an id, a part of id or model in any case, or "auto"
   live::Wish wish;
+  std::optional<live::Mode> mode;  ///< none: whichever is nearest to the wish
 };
 
 /// A camera that is ready to stream.

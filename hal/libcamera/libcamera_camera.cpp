@@ -14,7 +14,7 @@ namespace lumibox::hal {
 namespace {
 
 live::Prepared prepare(const CameraOptions& options, std::unique_ptr<libcam::CameraSystem> system) {
-  const libcam::Request request{options.device, live::wish_of(options)};
+  const libcam::Request request{options.device, live::wish_of(options), {}};
   auto found = libcam::connect(*system, request);
   if (const auto* fault = std::get_if<std::string>(&found)) {
     throw config::Unavailable("devices.camera: " + *fault);

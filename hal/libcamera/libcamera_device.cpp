@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -74,9 +75,8 @@ void LibcameraDevice::update_hold(bool wanted) {
 
 /// With the rate that was chosen, so that no exposure in the dark makes it lower.
 Orders LibcameraDevice::complete(Orders orders) const {
-  if (connection_.abilities.frame_duration_us) {
-    orders.frame_duration_us = connection_.layout.mode.interval.numerator;
-  }
+  const std::uint32_t duration_us = connection_.layout.mode.interval.numerator;
+  if (duration_us != 0) orders.frame_duration_us = duration_us;
   return orders;
 }
 

@@ -6,6 +6,7 @@
 #include <libcamera/formats.h>
 #include <libcamera/framebuffer.h>
 #include <libcamera/framebuffer_allocator.h>
+#include <libcamera/logging.h>
 #include <libcamera/request.h>
 #include <libcamera/stream.h>
 
@@ -294,6 +295,7 @@ void RealCamera::stop() {
   camera_->requestCompleted.disconnect(this);
   slots_.clear();
   allocator_.reset();
+  const std::lock_guard lock(mutex_);
   completed_.clear();
   wake_up_.clear();
 }
@@ -356,6 +358,9 @@ int RealCamera::queue(std::uint32_t request, const std::optional<Orders>& orders
 class RealCameraSystem : public CameraSystem {
  public:
   RealCameraSystem() {
+    // Else it greets, and warns that it has no modules for processors that there may not be.
+    lc::logSetLevel("Camera", "WARN");
+    lc::logSetLevel("IPAManager", "ERROR");
     manager_.cameraAdded.connect(this, &RealCameraSystem::on_added);
     manager_.cameraRemoved.connect(this, &RealCameraSystem::on_removed);
     if (const int error = manager_.start(); error < 0) {

@@ -50,11 +50,12 @@ class OpenFake : public hal::libcam::OpenCamera {
   std::variant<Configured, int> configure(const live::Mode& mode) override {
     touch();
     if (is_removed()) return ENODEV;
-    mode_ = mode;
-    layout_ = live::make_layout(mode, 0, false);
-    layout_ = live::make_layout(mode, layout_.stride + sensor_->padding, sensor_->limited_range);
-    return sensor_->gives.value_or(
-        Configured{mode.format, mode.width, mode.height, layout_.stride, sensor_->limited_range});
+    const Configured got = sensor_->gives.value_or(
+        Configured{mode.format, mode.width, mode.height, 0, sensor_->limited_range});
+    mode_ = {got.format.value_or(mode.format), got.width, got.height, {}};
+    layout_ = live::make_layout(mode_, 0, false);
+    layout_ = live::make_layout(mode_, layout_.stride + sensor_->padding, sensor_->limited_range);
+    return Configured{got.format, got.width, got.height, layout_.stride, got.limited_range};
   }
 
   Abilities abilities() const override { return sensor_->abilities; }

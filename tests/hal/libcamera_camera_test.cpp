@@ -181,11 +181,42 @@ TEST_F(LibcameraCameraTest, OfARangeTheNearestSizeThatCanBeReadIsTaken) {
   EXPECT_EQ(camera_->profile().height, 62);
 }
 
-TEST_F(LibcameraCameraTest, WhatTheCameraMakesOfTheModeIsChecked) {
-  sensor_->gives = libcam::Configured{live::PixelFormat::Nv12, 64, 24, 64, false};
-  EXPECT_THAT(complaint(), HasSubstr("was asked for nv12 32x24 and gives 64x24 in nv12"));
-  sensor_->gives = libcam::Configured{std::nullopt, 32, 24, 64, false};
+TEST_F(LibcameraCameraTest, WhatTheCameraMakesOfTheModeIsTakenIfItWillDo) {
+  sensor_->gives = libcam::Configured{live::PixelFormat::Yuyv, 48, 24, 0, false};
+  start();
+  EXPECT_EQ(camera_->profile().width, 48);
+  EXPECT_EQ(step().value().color->width(), 48);
+  sensor_->unplug();
+  step();
+  sensor_->plugged = true;
+  EXPECT_GT(periods_until_frame(), 0);  // and asked for just that from then on
+
+  options_.wishes.format = "nv12";
+  EXPECT_THAT(complaint(), HasSubstr("was asked for nv12 32x24 and gives 48x24 in yuyv"));
+  options_.wishes.format = "auto";
+  sensor_->gives = libcam::Configured{std::nullopt, 32, 24, 0, false};
   EXPECT_THAT(complaint(), HasSubstr("in a format that is not read here"));
+  sensor_->gives = libcam::Configured{live::PixelFormat::Nv12, 33, 24, 0, false};
+  EXPECT_THAT(complaint(), HasSubstr("gives 33x24"));
+  config::CameraProfile profile;
+  profile.width = 32;
+  profile.height = 24;
+  options_.calibration = profile;
+  sensor_->gives = libcam::Configured{live::PixelFormat::Nv12, 48, 24, 0, false};
+  EXPECT_THAT(complaint(), HasSubstr("gives 48x24"));
+}
+
+TEST_F(LibcameraCameraTest, ComesBackInTheSameModeAndNoOther) {
+  start();
+  ASSERT_TRUE(step());
+  sensor_->unplug();
+  step();
+  sensor_->plugged = true;
+  sensor_->gives = libcam::Configured{live::PixelFormat::Nv12, 48, 24, 0, false};
+  pass(10.0);
+  EXPECT_EQ(camera_->state(), CameraState::Lost);
+  sensor_->gives.reset();
+  EXPECT_GT(periods_until_frame(), 0);
 }
 
 TEST_F(LibcameraCameraTest, IsToldTheRateAsFarAsItCanKeepToIt) {
@@ -199,11 +230,14 @@ TEST_F(LibcameraCameraTest, IsToldTheRateAsFarAsItCanKeepToIt) {
   options_.wishes.rate_hz = 5;
   open();
   EXPECT_EQ(camera_->profile().fps, 10.0);  // its longest
-  sensor_->abilities.frame_duration_us.reset();
-  sensor_->orders.clear();
-  start();
-  EXPECT_EQ(camera_->profile().fps, 5.0);
-  EXPECT_FALSE(sensor_->orders.front().frame_duration_us);
+  using Range = std::pair<std::int64_t, std::int64_t>;
+  for (const std::optional<Range>& none : {std::optional<Range>(), std::optional(Range(0, 0))}) {
+    sensor_->abilities.frame_duration_us = none;
+    sensor_->orders.clear();
+    start();
+    EXPECT_EQ(camera_->profile().fps, 5.0);
+    EXPECT_FALSE(sensor_->orders.front().frame_duration_us);
+  }
 }
 
 TEST_F(LibcameraCameraTest, ARefusalToStreamIsSaid) {
