@@ -358,7 +358,8 @@ int RealCamera::queue(std::uint32_t request, const std::optional<Orders>& orders
 class RealCameraSystem : public CameraSystem {
  public:
   RealCameraSystem() {
-    // Else it greets, and warns that it has no modules for processors that there may not be.
+    // Else it greets, and warns that it has no modules for processors that there may not be; some
+    // versions do all the same.
     lc::logSetLevel("Camera", "WARN");
     lc::logSetLevel("IPAManager", "ERROR");
     manager_.cameraAdded.connect(this, &RealCameraSystem::on_added);

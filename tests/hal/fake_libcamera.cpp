@@ -147,6 +147,7 @@ class OpenFake : public hal::libcam::OpenCamera {
   }
 
   void cancel_all() {
+    if (!sensor_->cancels) return;
     for (const std::uint32_t request : queued_) {
       Completed cancelled;
       cancelled.request = request;
@@ -179,10 +180,8 @@ class OpenFake : public hal::libcam::OpenCamera {
     if (sensor_->says_exposure_begin) done.exposure_begin_ns = timestamp_ns;
     if (sensor_->cancelled.contains(sequence_)) done.status = Completed::Status::Cancelled;
     if (sensor_->faulty.contains(sequence_)) done.status = Completed::Status::Error;
-    if (done.status == Completed::Status::Success) {
-      done.adjustments = sensor_->now;
-      fill(buffers_[done.request], done.planes);
-    }
+    if (done.status == Completed::Status::Success) done.adjustments = sensor_->now;
+    if (done.status != Completed::Status::Cancelled) fill(buffers_[done.request], done.planes);
     done_.push_back(done);
   }
 

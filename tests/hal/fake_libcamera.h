@@ -41,6 +41,7 @@ struct FakeSensor {
   hal::libcam::Adjustments now;  ///< of the picture that was made last
 
   bool plugged = true;
+  bool cancels = true;  ///< its requests, when it is unplugged
   int plugs = 0;
   int calls_until_unplugged = -1;  ///< -1: it stays
   int open_error = 0;

@@ -342,6 +342,16 @@ TEST_F(LibcameraCameraTest, ARemovedCameraIsLostReleasedAndComesBackWhenItIsAdde
   EXPECT_EQ(camera_->state(), CameraState::Streaming);
 }
 
+TEST_F(LibcameraCameraTest, ARemovedCameraThatGivesNoRequestBackIsLostToo) {
+  sensor_->cancels = false;
+  start();
+  ASSERT_TRUE(step());
+  sensor_->unplug();
+  step();
+  EXPECT_EQ(camera_->state(), CameraState::Lost);
+  EXPECT_EQ(sensor_->open, 0);
+}
+
 TEST_F(LibcameraCameraTest, ARequestThatIsRefusedEndsTheStream) {
   start();
   ASSERT_TRUE(step());
