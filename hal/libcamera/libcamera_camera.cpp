@@ -26,7 +26,7 @@ live::Prepared prepare(const CameraOptions& options, std::unique_ptr<libcam::Cam
   prepared.profile = live::profile_of(options, mode);
   prepared.introduction = live::introduction_of(options, connection.name(), connection.offer, mode);
   if (options.wishes.power_line != "asis") {
-    prepared.introduction.warnings.push_back(
+    prepared.introduction.warnings.emplace_back(
         "camera.power_line is for v4l2 only; this camera does as it likes");
   }
   prepared.settings = live::settings_of(options, mode);

@@ -3,7 +3,7 @@
 #include "appliance/box.h"
 
 // What every camera and every set of buttons has to do (tests/hal/*_contract_test.cpp), on those of
-// a real kernel: v4l2loopback and the kernel's own test camera, gpio-sim and uinput.
+// a real kernel: v4l2loopback and two test cameras of the kernel's own, gpio-sim and uinput.
 namespace lumibox::testing {
 namespace {
 
@@ -43,6 +43,13 @@ TEST_F(Contracts, CameraOfVivid) {
   guest().output(
       "modprobe vivid n_devs=1 node_types=0x1 input_types=0 vid_cap_nr=30 && udevadm settle");
   expect_pass("LUMIBOX_TEST_VIDEO=/dev/video30", "camera_contract_test", "*RealVideo");
+}
+
+TEST_F(Contracts, CameraOfLibcamera) {
+  guest().output(
+      "modprobe -a v4l2-tpg videobuf2-vmalloc videobuf2-dma-contig && "
+      "insmod /run/tools/vimc.ko && udevadm settle");
+  expect_pass("LUMIBOX_TEST_LIBCAMERA=auto", "camera_contract_test", "*RealLibcamera");
 }
 
 TEST_F(Contracts, ButtonsOfGpioSim) {
