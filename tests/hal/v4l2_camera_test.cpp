@@ -443,6 +443,15 @@ TEST_F(V4l2CameraTest, WhatACrashLeftHeldIsAutomaticAgainBeforeTheFirstPicture) 
   EXPECT_EQ(value(V4L2_CID_EXPOSURE_AUTO), V4L2_EXPOSURE_APERTURE_PRIORITY);
 }
 
+TEST_F(V4l2CameraTest, AStreamThatIsBegunAnewIsAsAutomaticAsTheFirst) {
+  start();
+  ASSERT_TRUE(step());
+  webcam_->controls[V4L2_CID_FOCUS_AUTO].value = 0;  // as one that lost its power may come back
+  webcam_->silence = testing::Silence::UntilBegunAnew;
+  EXPECT_GT(periods_until_frame(), 1);
+  EXPECT_EQ(value(V4L2_CID_FOCUS_AUTO), 1);
+}
+
 TEST_F(V4l2CameraTest, AnExposureFreedWhileTheCameraIsGoneIsFreedWhenItIsBack) {
   start();
   ASSERT_TRUE(step());
