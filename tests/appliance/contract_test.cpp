@@ -27,7 +27,9 @@ class Contracts : public ::testing::Test {
     EXPECT_EQ(result.status, 0) << result.output;
     EXPECT_NE(result.output.find("[  PASSED  ]"), std::string::npos) << result.output;
     EXPECT_EQ(result.output.find("SKIPPED"), std::string::npos) << result.output;
-    note_figure(program + " " + filter + ": " + result.output.substr(result.output.rfind("[  P")));
+    const std::size_t summary = std::min(result.output.rfind("[  P"), result.output.size());
+    note_figure("contract, " + environment + " " + filter + ": " +
+                result.output.substr(summary, 23));
   }
 
  private:
