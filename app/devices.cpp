@@ -277,8 +277,8 @@ Devices open_devices(const config::Config& config) {
   devices.status_led = open_status_led(config);
   const hal::Clock& clock = *devices.clock;
   devices.open_camera = [config, &clock] { return open_camera(config, clock); };
-  devices.open_display = [config, &clock, keys] {
-    auto display = open_display(config, clock, keys);
+  devices.open_display = [config, &clock, heard = std::weak_ptr(keys)] {
+    auto display = open_display(config, clock, heard.lock());
     display->make_current();
     return display;
   };

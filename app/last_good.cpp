@@ -17,6 +17,7 @@ OpenBox open_as_configured(const config::Sources& sources) {
   // The file may be another by the time that they have been seen to work.
   std::string settings = sources.file ? config::read_text(*sources.file) : std::string();
   const config::Config config = load_config(sources);
+  make_folder(config.capture.folder);
   return {config, open_devices(config), std::move(settings), std::nullopt};
 }
 

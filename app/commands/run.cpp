@@ -91,7 +91,6 @@ void run(const RunOptions& options) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, ask_to_stop);
   if (options.last_good) check_last_good(*options.last_good);
   OpenBox box = open_box(options.sources, options.last_good);
-  make_folder(box.config.capture.folder);
   Service service;
   if (!wait_for_devices(box, service)) return service.stopping();
   const geometry::Camera camera(box.devices.camera->profile());

@@ -6,13 +6,13 @@
 #include <libcamera/formats.h>
 #include <libcamera/framebuffer.h>
 #include <libcamera/framebuffer_allocator.h>
-#include <libcamera/logging.h>
 #include <libcamera/request.h>
 #include <libcamera/stream.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstdlib>
 #include <deque>
 #include <mutex>
 #include <set>
@@ -358,10 +358,6 @@ int RealCamera::queue(std::uint32_t request, const std::optional<Orders>& orders
 class RealCameraSystem : public CameraSystem {
  public:
   RealCameraSystem() {
-    // Else it greets, and warns that it has no modules for processors that there may not be; some
-    // versions do all the same.
-    lc::logSetLevel("Camera", "WARN");
-    lc::logSetLevel("IPAManager", "ERROR");
     manager_.cameraAdded.connect(this, &RealCameraSystem::on_added);
     manager_.cameraRemoved.connect(this, &RealCameraSystem::on_removed);
     if (const int error = manager_.start(); error < 0) {
@@ -385,6 +381,7 @@ class RealCameraSystem : public CameraSystem {
     std::shared_ptr<lc::Camera> camera = manager_.get(id);
     if (!camera) return {nullptr, ENODEV};
     if (const int error = camera->acquire(); error < 0) return {nullptr, -error};
+    removals_.forget(camera.get());  // of one that lived at the same address
     return {std::make_unique<RealCamera>(std::move(camera), removals_), 0};
   }
 
@@ -416,6 +413,9 @@ class RealCameraSystem : public CameraSystem {
 }  // namespace
 
 std::unique_ptr<CameraSystem> real_camera_system() {
+  // Else it greets, and warns that it has no modules for processors that there may not be. Asked
+  // for before it says its first word; who asked for something else gets that.
+  ::setenv("LIBCAMERA_LOG_LEVELS", "Camera:WARN,IPAManager:ERROR", 0);
   return std::make_unique<RealCameraSystem>();
 }
 

@@ -131,7 +131,10 @@ Automatic make_automatic(VideoDevice& device) {
       result.switched.emplace_back(name);
     }
   };
-  for (const Automatism& row : kAutomatisms) reset(row.switch_id, row.switch_name);
+  for (const Automatism& row : kAutomatisms) {
+    // Who calibrated the camera may have fixed the focus on purpose: it is never set loose.
+    if (row.switch_id != V4L2_CID_FOCUS_AUTO) reset(row.switch_id, row.switch_name);
+  }
   reset(kSteadyRate.id, kSteadyRate.name);
   return result;
 }

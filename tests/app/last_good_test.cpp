@@ -14,11 +14,13 @@ using ::testing::HasSubstr;
 
 class LastGood : public ::testing::Test {
  protected:
-  /// Settings with a rate of their own, by which they are known, and a display.
-  std::string settings(const std::string& rate, const std::string& display = "offscreen:32x24") {
+  /// Settings with a rate of their own, by which they are known, a display and a folder for
+  /// captures.
+  std::string settings(const std::string& rate, const std::string& display = "offscreen:32x24",
+                       const std::string& folder = "captures") {
     return "[loop]\nrate_hz = " + rate +
            "\n[devices]\ncamera = \"replay:" + recording_.folder().string() + "\"\ndisplay = \"" +
-           display + "\"\n";
+           display + "\"\n[capture]\nfolder = \"" + (recording_.dir() / folder).string() + "\"\n";
   }
   config::Sources sources(const std::string& text) {
     return {.system_file = {}, .file = recording_.dir().write("lumibox.toml", text)};
@@ -38,7 +40,8 @@ TEST_F(LastGood, SettingsThatWorkAreUsed) {
 TEST_F(LastGood, ThoseThatDoNotGiveWayToTheLastGoodOnes) {
   recording_.dir().write("good.toml", settings("7"));
   for (const std::string& wrong :
-       {settings("-1"), std::string("no TOML"), settings("9", "kms:/nowhere/card0")}) {
+       {settings("-1"), std::string("no TOML"), settings("9", "kms:/nowhere/card0"),
+        settings("9", "offscreen:32x24", "lumibox.toml/captures")}) {
     const OpenBox box = open_box(sources(wrong), good_);
     EXPECT_EQ(box.config.loop.rate_hz, 7.0) << wrong;
     EXPECT_EQ(box.devices.display->width(), 32);

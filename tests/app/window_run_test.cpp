@@ -26,8 +26,9 @@ TEST(WindowOfARun, EndsItWhenItIsClosed) {
   const auto desk = testing::Desk::open();
   if (!desk) GTEST_SKIP() << "no desktop here; Debian's package xvfb has one for tests";
   const testing::TempDir dir;
+  // Nobody else would end a run whose window never comes.
   const std::string command =
-      std::string(LUMIBOX_EXECUTABLE) +
+      "timeout 300 " + std::string(LUMIBOX_EXECUTABLE) +
       " run --set devices.display=window --set devices.buttons=window" +
       " --set devices.camera=sim:" + dir.write("scene.toml", endless_scene()).string() +
       " --set capture.folder=" + (dir / "captures").string() + " >" + (dir / "said").string() +

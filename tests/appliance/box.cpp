@@ -43,7 +43,11 @@ Partition data_partition(const fs::path& disk) {
 
 fs::path image_folder() {
   const char* folder = std::getenv("LUMIBOX_APPLIANCE");
-  return folder == nullptr ? fs::path() : fs::path(folder);
+  if (folder == nullptr) {
+    throw std::runtime_error(
+        "LUMIBOX_APPLIANCE is not set; expected the folder of scripts/appliance");
+  }
+  return folder;
 }
 
 Box::Box(const std::string& name, VirtualMachine::Start start, const std::string& more_parameters)
@@ -64,8 +68,8 @@ Box::Box(const std::string& name, VirtualMachine::Start start, const std::string
 
 Box::~Box() {
   machine_.reset();
-  const bool failed = ::testing::Test::HasFailure() ||
-                      ::testing::UnitTest::GetInstance()->failed_test_count() > 0;
+  const bool failed =
+      ::testing::Test::HasFailure() || ::testing::UnitTest::GetInstance()->failed_test_count() > 0;
   if (!failed) fs::remove(disk_);
 }
 

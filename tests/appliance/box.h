@@ -11,8 +11,7 @@
 
 namespace lumibox::testing {
 
-/// Folder that scripts/test --appliance has filled, from LUMIBOX_APPLIANCE; empty if it was not
-/// set.
+/// Folder that scripts/appliance has filled, from LUMIBOX_APPLIANCE. Throws if that is not set.
 std::filesystem::path image_folder();
 
 enum class Line { Main, Review, Plus, Minus, Wipe, Lamp };
@@ -21,8 +20,8 @@ enum class Line { Main, Review, Plus, Minus, Wipe, Lamp };
 /// looked at from outside.
 class Box {
  public:
-  /// Starts on `disk`, or on a copy of the image as it came if that is not there yet. `name` is for
-  /// the files that it leaves behind.
+  /// Starts on a copy of the image, on a larger disk. `name` is for the files that it leaves
+  /// behind.
   explicit Box(const std::string& name, VirtualMachine::Start start = VirtualMachine::Start::Kernel,
                const std::string& more_parameters = "");
   ~Box();  ///< the disk stays only if a test has failed

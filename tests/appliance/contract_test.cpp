@@ -26,6 +26,7 @@ class Contracts : public ::testing::Test {
                     " --gtest_color=no --gtest_brief=1 --gtest_filter='" + filter + "'");
     EXPECT_EQ(result.status, 0) << result.output;
     EXPECT_NE(result.output.find("[  PASSED  ]"), std::string::npos) << result.output;
+    EXPECT_EQ(result.output.find("] 0 tests"), std::string::npos) << result.output;
     EXPECT_EQ(result.output.find("SKIPPED"), std::string::npos) << result.output;
     const std::size_t summary = std::min(result.output.rfind("[  P"), result.output.size());
     note_figure("contract, " + environment + " " + filter + ": " +

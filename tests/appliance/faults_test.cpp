@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "appliance/box.h"
 
 // What goes wrong with a box in the hand, made to happen: each begins in the middle of a capture,
@@ -96,6 +98,37 @@ TEST_F(Faults, TheServiceHangs) {
   box().wait_until_ready();
   EXPECT_GE(box().views(), views);
   expect_that_it_goes_on(views);
+}
+
+/// Rows of the screen with something bright in them.
+int bright_rows(const hal::Image& screen) {
+  int rows = 0;
+  for (int y = 0; y < screen.height(); ++y) {
+    const auto* row = screen.row(y);
+    rows += std::any_of(row, row + screen.stride(), [](int value) { return value > 150; }) ? 1 : 0;
+  }
+  return rows;
+}
+
+// The last of this suite: after it there is no box that runs.
+TEST_F(Faults, SettingsThatNeverWorkedAreSaidOnTheScreen) {
+  // A try takes the guest ten times as long as it takes a board.
+  guest().output(
+      "mkdir -p /run/systemd/system/lumibox.service.d && cd /run/systemd/system/lumibox.service.d "
+      "&& "
+      "printf '[Unit]\nStartLimitIntervalSec=1h\n' > slow.conf && systemctl daemon-reload && "
+      "systemctl stop lumibox && cd /var/lib/lumibox && rm last-good.toml && echo nonsense > "
+      "lumibox.toml");
+  guest().run("systemctl start lumibox");
+  EXPECT_TRUE(guest().becomes_true("systemctl is-active --quiet lumibox-failed"));
+  EXPECT_EQ(guest().run("systemctl is-failed lumibox").status, 0);
+  const auto is_text = [](const hal::Image& screen) {
+    const int rows = bright_rows(screen);  // a few lines of it, and nothing below
+    return rows > 20 && rows < screen.height() / 2;
+  };
+  EXPECT_TRUE(box().comes_to_show(is_text));
+  box().look("fault-4-given-up");
+  EXPECT_EQ(guest().run("journalctl -b -u lumibox | grep -q lumibox.toml").status, 0);
 }
 
 }  // namespace

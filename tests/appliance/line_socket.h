@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 namespace lumibox::testing {
@@ -14,8 +15,8 @@ constexpr std::chrono::seconds kPatience{240};
 /// connection and when `patience` is over.
 class LineSocket {
  public:
-  /// Waits until the socket is there.
-  explicit LineSocket(const std::filesystem::path& socket);
+  /// Waits until the socket is there, as long as `may_come` says that it may.
+  LineSocket(const std::filesystem::path& socket, const std::function<bool()>& may_come);
   ~LineSocket();
   LineSocket(const LineSocket&) = delete;
   LineSocket& operator=(const LineSocket&) = delete;

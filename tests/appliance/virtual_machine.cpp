@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -83,6 +84,7 @@ pid_t start(const std::vector<std::string>& line, const fs::path& log) {
   const pid_t process = ::fork();
   if (process < 0) throw std::runtime_error("no process for QEMU");
   if (process == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that is killed leaves no machine behind
     const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     ::dup2(file, STDOUT_FILENO);
     ::dup2(file, STDERR_FILENO);
@@ -98,20 +100,29 @@ VirtualMachine::VirtualMachine(const Settings& settings) : settings_(settings) {
   fs::create_directories(settings.scratch);
   for (const char* socket : {"shell", "qmp"}) fs::remove(settings.scratch / socket);
   process_ = start(command_line(settings), settings.scratch / "qemu.log");
-  qmp_ = std::make_unique<LineSocket>(settings.scratch / "qmp");
-  qmp_->read_line();  // it introduces itself
-  ask_qemu("qmp_capabilities");
-  if (settings.start == Start::Kernel) open_shell();
+  try {
+    qmp_ = connect("qmp");
+    qmp_->read_line();  // it introduces itself
+    ask_qemu("qmp_capabilities");
+    if (settings.start == Start::Kernel) open_shell();
+  } catch (...) {
+    cut_power();
+    throw;
+  }
 }
 
 VirtualMachine::~VirtualMachine() {
   cut_power();
 }
 
+std::unique_ptr<LineSocket> VirtualMachine::connect(const char* name) {
+  return std::make_unique<LineSocket>(settings_.scratch / name, [this] { return !off(WNOHANG); });
+}
+
 /// Until the shell is there nobody listens at the serial line, and what is said is lost or comes
 /// late.
 void VirtualMachine::open_shell() {
-  shell_ = std::make_unique<LineSocket>(settings_.scratch / "shell");
+  shell_ = connect("shell");
   const auto end = std::chrono::steady_clock::now() + kPatience;
   for (int i = 0;; ++i) {
     const std::string word = "shell-" + std::to_string(i) + "-is-open";

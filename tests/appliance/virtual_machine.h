@@ -56,6 +56,7 @@ class VirtualMachine {
 
  private:
   std::string ask_qemu(const std::string& command, const std::string& arguments = "{}");
+  std::unique_ptr<LineSocket> connect(const char* name);
   void open_shell();
   bool off(int options);
 

@@ -431,10 +431,10 @@ TEST_F(V4l2CameraTest, LeavesTheCameraAsItFoundIt) {
 
 TEST_F(V4l2CameraTest, WhatACrashLeftHeldIsAutomaticAgainBeforeTheFirstPicture) {
   webcam_->controls[V4L2_CID_EXPOSURE_AUTO].value = V4L2_EXPOSURE_MANUAL;
-  webcam_->controls[V4L2_CID_FOCUS_AUTO].value = 0;
+  webcam_->controls[V4L2_CID_AUTO_WHITE_BALANCE].value = 0;
   start();
   EXPECT_EQ(value(V4L2_CID_EXPOSURE_AUTO), V4L2_EXPOSURE_APERTURE_PRIORITY);
-  EXPECT_EQ(value(V4L2_CID_FOCUS_AUTO), 1);
+  EXPECT_EQ(value(V4L2_CID_AUTO_WHITE_BALANCE), 1);
   ASSERT_TRUE(step());
   camera_->lock_exposure(true);
   step();
@@ -446,10 +446,11 @@ TEST_F(V4l2CameraTest, WhatACrashLeftHeldIsAutomaticAgainBeforeTheFirstPicture) 
 TEST_F(V4l2CameraTest, AStreamThatIsBegunAnewIsAsAutomaticAsTheFirst) {
   start();
   ASSERT_TRUE(step());
-  webcam_->controls[V4L2_CID_FOCUS_AUTO].value = 0;  // as one that lost its power may come back
+  // As one that lost its power may come back.
+  webcam_->controls[V4L2_CID_AUTO_WHITE_BALANCE].value = 0;
   webcam_->silence = testing::Silence::UntilBegunAnew;
   EXPECT_GT(periods_until_frame(), 1);
-  EXPECT_EQ(value(V4L2_CID_FOCUS_AUTO), 1);
+  EXPECT_EQ(value(V4L2_CID_AUTO_WHITE_BALANCE), 1);
 }
 
 TEST_F(V4l2CameraTest, AnExposureFreedWhileTheCameraIsGoneIsFreedWhenItIsBack) {

@@ -55,6 +55,10 @@ int main(int argc, char** argv) {
   const auto width = static_cast<unsigned>(std::atoi(argv[2]));
   const auto height = static_cast<unsigned>(std::atoi(argv[3]));
   const auto rate_hz = static_cast<unsigned>(std::atoi(argv[4]));
+  if (width == 0 || height == 0 || rate_hz == 0) {
+    std::fprintf(stderr, "feed: WIDTH, HEIGHT and HZ must be numbers of at least 1\n");
+    return 2;
+  }
   const std::size_t picture = std::size_t{2} * width * height;
 
   const int film = open(argv[1], O_RDONLY | O_CLOEXEC);
