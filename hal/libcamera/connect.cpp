@@ -3,12 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <utility>
 
-#include "config/error_text.h"
 #include "hal/live/options.h"
+#include "hal/live/refusal.h"
 
 namespace lumibox::hal::libcam {
 namespace {
@@ -66,7 +65,8 @@ std::variant<live::Layout, std::string> set_mode(OpenCamera& camera, const live:
   const std::string asked =
       fmt::format("{} {}x{}", live::name_of(mode.format), mode.width, mode.height);
   const auto answer = camera.configure(mode);
-  if (const auto* error = std::get_if<int>(&answer)) return refusal("refuses " + asked, *error);
+  if (const auto* error = std::get_if<int>(&answer))
+    return live::refusal("refuses " + asked, *error);
   const Configured& got = std::get<Configured>(answer);
   if (!will_do(got, mode, request)) {
     return fmt::format("was asked for {} and gives {}x{} in {}", asked, got.width, got.height,
@@ -126,7 +126,7 @@ std::variant<Connection, std::string> connect(CameraSystem& system, const Reques
   for (const CameraName& identity : meant_by(request.name, all)) {
     Opened opened = system.open(identity.id);
     if (!opened.camera) {
-      reason = refusal(name_of(identity), opened.error);
+      reason = live::refusal(name_of(identity), opened.error);
       continue;
     }
     auto found = set_up(Connection{std::move(opened.camera), identity, {}, {}, {}}, request);
@@ -144,13 +144,6 @@ std::variant<Connection, std::string> connect(CameraSystem& system, const Reques
 
 Request again(const Request& request, const Connection& connection) {
   return {connection.identity.id, request.wish, connection.layout.mode};
-}
-
-std::string refusal(const std::string& what, int error) {
-  const char* hint = error == EBUSY    ? "; is another program using it?"
-                     : error == EACCES ? "; is the user in the group video?"
-                                       : "";
-  return what + ": " + config::error_text(error) + hint;
 }
 
 }  // namespace lumibox::hal::libcam

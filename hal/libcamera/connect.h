@@ -42,7 +42,4 @@ std::variant<Connection, std::string> connect(CameraSystem& system, const Reques
 /// Asks for just the camera and the mode that were found before.
 Request again(const Request& request, const Connection& connection);
 
-/// "<what>: <why>" of a camera that refused, and what may help.
-std::string refusal(const std::string& what, int error);
-
 }  // namespace lumibox::hal::libcam

@@ -9,6 +9,7 @@
 #include "config/error.h"
 #include "hal/libcamera/connect.h"
 #include "hal/libcamera/libcamera_device.h"
+#include "hal/live/refusal.h"
 
 namespace lumibox::hal {
 namespace {
@@ -63,7 +64,7 @@ std::string describe_abilities(const libcam::Abilities& abilities) {
 
 std::string describe(libcam::CameraSystem& system, const libcam::CameraName& camera) {
   const libcam::Opened opened = system.open(camera.id);
-  if (!opened.camera) return "  " + libcam::refusal("cannot be opened", opened.error) + "\n";
+  if (!opened.camera) return "  " + live::refusal("cannot be opened", opened.error) + "\n";
   std::string text;
   for (const libcam::Offer& offer : opened.camera->offers()) text += describe_sizes(offer);
   if (text.empty()) text = "  no format that can be read here\n";

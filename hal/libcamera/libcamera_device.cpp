@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "config/log.h"
+#include "hal/live/refusal.h"
 
 namespace lumibox::hal::libcam {
 
@@ -34,7 +35,7 @@ std::optional<std::string> LibcameraDevice::begin() {
   end();
   const int refused = connection_.camera->start(complete(hold_.begin()));
   streaming_ = refused == 0;
-  return streaming_ ? std::nullopt : std::optional(refusal("does not stream", refused));
+  return streaming_ ? std::nullopt : std::optional(live::refusal("does not stream", refused));
 }
 
 void LibcameraDevice::end() {
@@ -53,7 +54,7 @@ std::optional<std::string> LibcameraDevice::give_back(const live::Filled& filled
   if (orders) orders = complete(*orders);
   const int refused = connection_.camera->queue(filled.buffer, orders);
   if (refused == 0) return std::nullopt;
-  return refusal("it takes no requests", refused);
+  return live::refusal("it takes no requests", refused);
 }
 
 std::optional<std::string> LibcameraDevice::loss() {

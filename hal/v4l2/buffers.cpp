@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <cstddef>
 
-#include "hal/v4l2/modes.h"
+#include "hal/live/refusal.h"
 
 namespace lumibox::hal::v4l2 {
 namespace {
@@ -43,17 +43,17 @@ BufferRing::~BufferRing() {
 std::optional<std::string> BufferRing::begin() {
   v4l2_requestbuffers request = request_for(kBuffers);
   if (const int error = device_.ioctl(VIDIOC_REQBUFS, &request); error != 0) {
-    return refusal("gives no buffers", error);
+    return live::refusal("gives no buffers", error);
   }
   // As many as it likes, but the kernel has no more than these.
   const std::uint32_t count = std::min<std::uint32_t>(request.count, VIDEO_MAX_FRAME);
   if (auto fault = map_buffers(count)) return fault;
   for (std::uint32_t i = 0; i < count; ++i) {
-    if (const int error = queue(i); error != 0) return refusal("takes no buffers", error);
+    if (const int error = queue(i); error != 0) return live::refusal("takes no buffers", error);
   }
   int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   if (const int error = device_.ioctl(VIDIOC_STREAMON, &type); error != 0) {
-    return refusal("does not stream", error);
+    return live::refusal("does not stream", error);
   }
   return std::nullopt;
 }
@@ -62,7 +62,7 @@ std::optional<std::string> BufferRing::map_buffers(std::uint32_t count) {
   for (std::uint32_t i = 0; i < count; ++i) {
     v4l2_buffer buffer = mapped_buffer(i);
     if (const int error = device_.ioctl(VIDIOC_QUERYBUF, &buffer); error != 0) {
-      return refusal("does not describe its buffers", error);
+      return live::refusal("does not describe its buffers", error);
     }
     const std::span<std::uint8_t> memory = device_.map(buffer.length, buffer.m.offset);
     if (memory.empty()) return "does not share its buffers";

@@ -4,11 +4,10 @@
 #include <linux/videodev2.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <utility>
 
-#include "config/error_text.h"
 #include "hal/live/options.h"
+#include "hal/live/refusal.h"
 #include "hal/v4l2/modes.h"
 
 namespace lumibox::hal::v4l2 {
@@ -23,11 +22,6 @@ std::string text_of(const __u8 (&field)[n]) {
 
 bool is_path(const std::string& name) {
   return name.starts_with('/');
-}
-
-std::string open_error(const std::string& path, int error) {
-  const char* hint = error == EACCES ? "; is the user in the group video?" : "";
-  return path + ": " + config::error_text(error) + hint;
 }
 
 /// A device that is open, or why it will not do.
@@ -51,7 +45,7 @@ std::variant<Connection, std::string> set_up(Connection camera, const Request& r
 std::variant<Connection, std::string> try_path(VideoSystem& system, const std::string& path,
                                                const Request& request) {
   Opened opened = system.open(path);
-  if (!opened.device) return open_error(path, opened.error);
+  if (!opened.device) return live::refusal(path, opened.error);
   return set_up(Connection{std::move(opened.device), path, {}, {}, {}}, request);
 }
 
@@ -82,7 +76,7 @@ std::variant<Connection, std::string> connect(VideoSystem& system, const Request
   for (const Node& node : system.nodes()) {
     Opened opened = system.open(node.path);
     if (!opened.device) {
-      reason = open_error(node.path, opened.error);
+      reason = live::refusal(node.path, opened.error);
       continue;
     }
     if (!is_meant(*opened.device, request)) continue;

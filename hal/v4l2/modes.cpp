@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <utility>
 
-#include "config/error_text.h"
+#include "hal/live/refusal.h"
 
 namespace lumibox::hal::v4l2 {
 namespace {
@@ -171,7 +170,7 @@ std::variant<Layout, std::string> set_mode(VideoDevice& device, const Mode& mode
   pix.pixelformat = fourcc_of(mode.format);
   pix.field = V4L2_FIELD_NONE;
   if (const int error = device.ioctl(VIDIOC_S_FMT, &format); error != 0) {
-    return refusal("refuses " + to_string(mode), error);
+    return live::refusal("refuses " + to_string(mode), error);
   }
   if (format_of(pix.pixelformat) != mode.format ||
       pix.width != static_cast<std::uint32_t>(mode.width) ||
@@ -188,11 +187,6 @@ std::variant<Layout, std::string> set_mode(VideoDevice& device, const Mode& mode
   Layout layout = live::make_layout(mode, pix.bytesperline, has_limited_range(pix));
   layout.mode.interval = set_interval(device, mode.interval);
   return layout;
-}
-
-std::string refusal(const std::string& what, int error) {
-  const char* hint = error == EBUSY ? "; is another program using it?" : "";
-  return what + ": " + config::error_text(error) + hint;
 }
 
 }  // namespace lumibox::hal::v4l2

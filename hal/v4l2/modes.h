@@ -19,7 +19,4 @@ std::vector<live::Mode> list_modes(VideoDevice& device, const live::Wish& wish);
 /// size or format, or pictures in two halves (interlaced); another rate is taken as it is.
 std::variant<live::Layout, std::string> set_mode(VideoDevice& device, const live::Mode& mode);
 
-/// "<what>: <why>" of a camera that refused, and what may help.
-std::string refusal(const std::string& what, int error);
-
 }  // namespace lumibox::hal::v4l2
